@@ -1,0 +1,64 @@
+// The C ABI of soapfilm's core: what the TypeScript runtime calls in core.wasm, and what native
+// tests call. Plain pointers and counts; nothing throws, every call checks its input.
+#ifndef SOAPFILM_H
+#define SOAPFILM_H
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__wasm__)
+#define SF_API(name) __attribute__((export_name(#name), used, visibility("default")))
+#else
+#define SF_API(name) __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// 0 ok, 1 no triangulation, else an error: the values of sf::Status in src/base/status.h.
+typedef int32_t SfStatus;
+
+/// Arrays handed back by one call; owned by the caller until sf_result_free.
+typedef struct SfResult SfResult;
+
+/// Imported from the host as `soapfilm.sf_host_progress`; native programs define it themselves.
+/// Called about every millisecond; returns nonzero to go on, 0 to stop the call under way.
+int32_t sf_host_progress(double fraction, double bestCost, double lowerBound);
+
+/// Memory inside the instance, for arrays passed in. Null when it cannot be had.
+SF_API(sf_alloc) void* sf_alloc(size_t bytes);
+SF_API(sf_free) void sf_free(void* pointer);
+
+/// Number of result arrays; the address and length (in elements) of one. The functions below say
+/// which array is which.
+SF_API(sf_result_data) const void* sf_result_data(const SfResult* result, uint32_t array);
+SF_API(sf_result_length) size_t sf_result_length(const SfResult* result, uint32_t array);
+SF_API(sf_result_free) void sf_result_free(SfResult* result);
+
+/// Spans closed loops with the optimal manifold triangulation (Zou, Ju, Carr 2013).
+///   positions        [3 * starts[loopCount]] xyz
+///   starts           [loopCount + 1], from 0, increasing
+///   boundaryNormals  [3 * n] or null: unit or not, NaN triple for no face
+///   triangles        [3 * triangleCount] candidates for space 4, else null
+///   triangleWeights  [triangleCount] or null
+///   settings         [7] area, perimeter, dihedral weight; objective (0 sum, 1 worst-dihedral);
+///                    space (0 auto, 1 all, 2 Delaunay, 3 near, 4 given); memory limit in bytes;
+///                    1 to check that no two loop edges meet, 0 to leave that out
+///   where            [4] out: loop, vertex, other loop, other vertex at fault, or 0xFFFFFFFF
+///   result           out: arrays
+///       0 double   [3n'] positions        5 double   [14] found, space, cost, lower bound, optimal,
+///       1 uint32_t [3m]  triangles               area, perimeter, dihedral, worst dihedral, own,
+///       2 uint32_t [m]   order                   candidates, domains, minimal sets, peak bytes
+///       3 uint32_t [k+1] starts           6 uint32_t [2i] loop and edge of each inserted vertex
+///       4 uint32_t [n']  loop vertices    7 double   [i]  its parameter along that edge
+///     null unless the status is 0 or 1
+SF_API(sf_span_loops)
+SfStatus sf_span_loops(const double* positions, const uint32_t* starts, uint32_t loopCount,
+                       const double* boundaryNormals, const uint32_t* triangles,
+                       uint32_t triangleCount, const double* triangleWeights,
+                       const double* settings, uint32_t* where, SfResult** result);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,79 @@
+// The budget of one call: memory in use against its limit, and progress that may end the work.
+//
+// The core does not throw and does not read clocks: whoever starts a call hands it a progress
+// function, which reports, looks at the time and at cancellation, and answers whether to go on.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "base/status.h"
+
+namespace sf {
+
+/// Called about every millisecond of work. Returns true to go on, false to stop.
+///   fraction    0 to 1, share of the work done; never falls during one call
+///   bestCost    cost of the best surface so far, +infinity while there is none
+///   lowerBound  proven lower bound on the optimum, 0 at first
+using ProgressFunction = bool (*)(void* user, double fraction, double bestCost, double lowerBound);
+
+class Work {
+ public:
+  Work() = default;
+  Work(size_t maxBytes, ProgressFunction progress, void* user)
+      : maxBytes_(maxBytes), progress_(progress), user_(user) {}
+
+  /// Charges `bytes` against the limit; false, with status OutOfMemory, once that exceeds it.
+  bool charge(size_t bytes) {
+    used_ += bytes;
+    if (used_ > peak_) peak_ = used_;
+    if (used_ > maxBytes_) fail(Status::OutOfMemory);
+    return status_ == Status::Ok;
+  }
+  void release(size_t bytes) { used_ -= bytes; }
+  /// Whether `bytes` more would still fit: for sizes predicted before the work begins.
+  bool fits(double bytes) const { return bytes <= double(maxBytes_) - double(used_); }
+
+  /// Counts `units` of about a nanosecond; now and then asks the progress function.
+  /// False once the work has to end, for whatever reason: return at once, freeing what you hold.
+  bool tick(uint32_t units) {
+    pending_ += units;
+    if (pending_ >= kUnitsPerReport) report();
+    return status_ == Status::Ok;
+  }
+  /// Maps the share of the work in the phase that begins now: `setFraction(0..1)` inside [a, b].
+  void phase(double a, double b) { phaseStart_ = a, phaseEnd_ = b, setFraction(0); }
+  void setFraction(double inPhase) {
+    double f = phaseStart_ + (phaseEnd_ - phaseStart_) * inPhase;
+    if (f > fraction_) fraction_ = f < 1 ? f : 1;
+  }
+  void setBounds(double bestCost, double lowerBound) { best_ = bestCost, lower_ = lowerBound; }
+
+  bool going() const { return status_ == Status::Ok; }
+  Status status() const { return status_; }
+  void fail(Status s) {
+    if (status_ == Status::Ok) status_ = s;
+  }
+  /// Makes the object usable again after a failure that was dealt with; keeps the peak.
+  void recover() { status_ = Status::Ok; }
+  size_t used() const { return used_; }
+  size_t peak() const { return peak_; }
+
+  /// Asks the progress function now.
+  void report() {
+    pending_ = 0;
+    if (progress_ && !progress_(user_, fraction_, best_, lower_)) fail(Status::Stopped);
+  }
+
+ private:
+  static constexpr uint32_t kUnitsPerReport = 1u << 20;
+  size_t maxBytes_ = size_t(-1);
+  ProgressFunction progress_ = nullptr;
+  void* user_ = nullptr;
+  size_t used_ = 0, peak_ = 0;
+  uint32_t pending_ = 0;
+  double fraction_ = 0, phaseStart_ = 0, phaseEnd_ = 1;
+  double best_ = 1.0 / 0.0, lower_ = 0;
+  Status status_ = Status::Ok;
+};
+
+}  // namespace sf

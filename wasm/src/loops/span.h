@@ -1,0 +1,65 @@
+// Spanning: closed loops in, the optimal manifold triangulation out. The one entry to src/loops.
+// Source: Zou, Ju, Carr 2013, "An algorithm for triangulating multiple 3D polygons".
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "base/status.h"
+#include "base/work.h"
+#include "loops/loop_set.h"
+
+namespace sf {
+
+enum class Space : int32_t { Auto = 0, All = 1, Delaunay = 2, Near = 3, Given = 4 };
+enum class Objective : int32_t { Sum = 0, WorstDihedral = 1 };
+
+struct SpanOptions {
+  double areaWeight = 0;       // per square unit
+  double perimeterWeight = 0;  // per unit of triangle perimeter
+  double dihedralWeight = 1;   // per radian
+  Objective objective = Objective::Sum;
+  Space space = Space::Auto;
+  ArrayView<const double> boundaryNormals;   // [3n] or empty; NaN triple: no face across that edge
+  ArrayView<const uint32_t> triangles;       // [3c] for Space::Given
+  ArrayView<const double> triangleWeights;   // [c] added to each candidate's weight, or empty
+};
+
+/// Sums over a surface. Angles in radians between consistently oriented normals.
+struct SpanTerms {
+  double area = 0;           // sum of triangle areas
+  double perimeter = 0;      // sum of triangle perimeters
+  double dihedral = 0;       // sum over interior edges, and boundary edges with a face given
+  double worstDihedral = 0;  // the largest of those angles, 0 if there is none
+  double own = 0;            // sum of the candidates' own weights
+};
+
+/// A vertex that edge protection put on a loop edge.
+struct InsertedVertex {
+  uint32_t loop;     // input loop
+  uint32_t edge;     // edge from vertex `edge` of that loop to the next, counted in the input loop
+  double parameter;  // 0 to 1 along that edge
+};
+
+struct Span {
+  bool found = false;
+  Space space = Space::All;           // the candidate space that the answer is from
+  std::vector<Vec3> positions;        // [n'] input first, in input order, then inserted vertices
+  std::vector<uint32_t> triangles;    // [3m], m = n' + 2k - 4, consistently wound
+  std::vector<uint32_t> order;        // [m] triangles in the order of splitting
+  std::vector<uint32_t> starts;       // [k+1] of loopVertices
+  std::vector<uint32_t> loopVertices; // [n'] the loops of the result as indices into positions
+  std::vector<InsertedVertex> inserted;  // [n' - n]
+  SpanTerms terms;
+  double cost = 0;        // what the objective measures: weighted sum, or the largest angle
+  double lowerBound = 0;  // proven; equals cost when optimal
+  bool optimal = false;   // proven to be the least in `space`
+  uint64_t candidates = 0, domains = 0, minimalSets = 0;
+};
+
+/// Spans the loops with the surface of least cost among all edge- and vertex-manifold, connected,
+/// orientable surfaces of sphere-with-k-holes topology made of candidate triangles.
+/// `result.found` is false, with status Ok, if the space holds no such surface.
+/// Checks its input: every Status but NotFound can come back; see the list in base/status.h.
+Outcome spanLoops(const LoopSet& loops, const SpanOptions& options, Work& work, Span& result);
+
+}  // namespace sf

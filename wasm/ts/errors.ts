@@ -1,0 +1,55 @@
+/** Every way in which a call of soapfilm can fail. Codes are stable; messages are not. */
+export type ErrorCode =
+  | 'not-loaded'
+  | 'load-failed'
+  | 'no-loops'
+  | 'bad-loops'
+  | 'bad-starts'
+  | 'not-finite'
+  | 'too-few-vertices'
+  | 'repeated-vertex'
+  | 'loops-intersect'
+  | 'bad-normals'
+  | 'bad-weights'
+  | 'bad-candidates'
+  | 'bad-option'
+  | 'bad-file'
+  | 'too-large'
+  | 'out-of-memory'
+  | 'time-limit'
+  | 'cancelled'
+  | 'disposed'
+  | 'crashed';
+
+/** Where in the input an error lies; a field is absent where it does not apply. */
+export interface ErrorPlace {
+  /** Index of the loop. */
+  readonly loop?: number;
+  /** Index of the vertex within that loop, or of the candidate triangle for `bad-candidates`. */
+  readonly vertex?: number;
+  /** The second loop and vertex, for errors about a pair (`repeated-vertex`, `loops-intersect`). */
+  readonly otherLoop?: number;
+  readonly otherVertex?: number;
+  /** Index of a face of a mesh. */
+  readonly face?: number;
+  /** Line of a text file, the first is 1. */
+  readonly line?: number;
+}
+
+/** The one error class of soapfilm: a stable `code`, a message in words, and the place at fault. */
+export class SoapfilmError extends Error implements ErrorPlace {
+  override readonly name = 'SoapfilmError';
+  readonly code: ErrorCode;
+  readonly loop?: number;
+  readonly vertex?: number;
+  readonly otherLoop?: number;
+  readonly otherVertex?: number;
+  readonly face?: number;
+  readonly line?: number;
+
+  constructor(code: ErrorCode, message: string, place: ErrorPlace = {}, options?: ErrorOptions) {
+    super(message, options);
+    this.code = code;
+    Object.assign(this, place);
+  }
+}
