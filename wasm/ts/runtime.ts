@@ -1,0 +1,239 @@
+// The instance of core.wasm and the one way to call it. Only this file knows pointers and memory.
+import { SoapfilmError } from './errors.js';
+import { kNotFound, kOk, kStopped, statusError } from './messages.js';
+import type { ProgressListener } from './types.js';
+
+/** An argument of an export: a number as it is; an array, copied in; null, no array. */
+export type CoreArgument = number | Float64Array | Uint32Array | Int32Array | Uint8Array | null;
+
+type ArrayType =
+  | Float64ArrayConstructor
+  | Uint32ArrayConstructor
+  | Int32ArrayConstructor
+  | Uint8ArrayConstructor;
+
+/** The arrays that a call hands back, for the types asked for. */
+type Arrays<T extends readonly ArrayType[]> = { [I in keyof T]: InstanceType<T[I]> };
+
+/** What may end a call early, and who is told how it goes. */
+export interface Watch {
+  /** Called every 30 ms or so. What it throws ends the work and is thrown on by `callCore`. */
+  readonly onProgress?: ProgressListener | undefined;
+  /** Wall-clock seconds after which the call ends with `time-limit`. */
+  readonly maxSeconds?: number | undefined;
+}
+
+const kProgressMs = 30;
+/** WebAssembly memory never shrinks: an instance that has grown past this is not kept. */
+const kKeepBytes = 256 * 2 ** 20;
+/** Dying instances that cannot grow by this many 64 KiB pages have run out of memory. */
+const kProbePages = 1024;
+
+type Export = (...args: readonly number[]) => number;
+
+interface Core {
+  readonly memory: WebAssembly.Memory;
+  /** The export of that name; throws `load-failed` where the core has none. */
+  readonly find: (name: string) => Export;
+}
+
+/** The call under way. */
+interface Run {
+  readonly watch: Watch;
+  readonly started: number;
+  told: number;
+  fraction: number;
+  stop?: { readonly reason: unknown };
+}
+
+let module: WebAssembly.Module | undefined;
+let core: Core | undefined;
+let run: Run | undefined;
+
+/** The compiled core, or undefined before `startCore`. */
+export function compiledModule(): WebAssembly.Module | undefined {
+  return module;
+}
+
+/**
+ * Makes `compiled` the core that is called from now on, and starts an instance of it.
+ * @throws SoapfilmError `load-failed` when it is not soapfilm's core
+ */
+export async function startCore(compiled: WebAssembly.Module): Promise<void> {
+  const started = await WebAssembly.instantiate(compiled, imports(compiled));
+  core = open(started);
+  module = compiled;
+}
+
+/** Functions for all that the module imports: ours by name, the rest do nothing. */
+function imports(compiled: WebAssembly.Module): WebAssembly.Imports {
+  const known: Record<string, (...args: number[]) => unknown> = {
+    sf_host_progress: onHostProgress,
+    proc_exit: (code) => {
+      throw new Error(`the core exited with ${code}`);
+    },
+  };
+  const result: Record<string, Record<string, WebAssembly.ImportValue>> = {};
+  for (const { module: from, name, kind } of WebAssembly.Module.imports(compiled)) {
+    if (kind === 'function') (result[from] ??= {})[name] = known[name] ?? (() => 0);
+  }
+  return result;
+}
+
+function open(instance: WebAssembly.Instance): Core {
+  const { memory } = instance.exports;
+  const find = (name: string): Export => {
+    const found = instance.exports[name];
+    if (typeof found === 'function') return found as Export;
+    throw new SoapfilmError('load-failed', `The WebAssembly module has no function \`${name}\``);
+  };
+  if (!(memory instanceof WebAssembly.Memory)) {
+    throw new SoapfilmError('load-failed', 'The WebAssembly module has no memory');
+  }
+  find('sf_alloc');
+  find('_initialize')();
+  return { memory, find };
+}
+
+/** The import that the core calls about every millisecond; never throws into the core. */
+function onHostProgress(fraction: number, bestCost: number, lowerBound: number): 0 | 1 {
+  if (!run || run.stop) return 0;
+  const { watch, started } = run;
+  const now = performance.now();
+  try {
+    if (watch.maxSeconds !== undefined && now - started >= watch.maxSeconds * 1000) {
+      throw new SoapfilmError(
+        'time-limit',
+        `The work was not done within ${watch.maxSeconds} s (\`maxSeconds\`)`,
+      );
+    }
+    run.fraction = Math.min(1, Math.max(run.fraction, fraction));
+    if (watch.onProgress && now - run.told >= kProgressMs) {
+      watch.onProgress(run.fraction, bestCost, lowerBound);
+      // Taken afterwards, so that a slow listener cannot use up all the time.
+      run.told = performance.now();
+    }
+    return 1;
+  } catch (reason) {
+    run.stop = { reason };
+    return 0;
+  }
+}
+
+/**
+ * Calls an export `name(...args, where, result)` of the core and hands back its result arrays.
+ *
+ * @param types type of each result array, in the order of `include/soapfilm.h`
+ * @returns copies of the arrays; `found` is false for status 1, "no triangulation"
+ * @throws SoapfilmError `not-loaded`; what the core's status says; `time-limit`; `out-of-memory`
+ *   and `crashed`, after which the next call has a new instance; what `onProgress` throws
+ */
+export function callCore<const T extends readonly ArrayType[]>(
+  name: string,
+  args: readonly CoreArgument[],
+  types: T,
+  watch: Watch = {},
+): { readonly found: boolean; readonly arrays: Arrays<T> } {
+  if (run) {
+    throw new SoapfilmError('bad-option', 'soapfilm cannot be called from within `onProgress`');
+  }
+  if (!module) {
+    throw new SoapfilmError('not-loaded', 'Call `await load()` once before any other function');
+  }
+  const now = performance.now();
+  const thisRun: Run = { watch, started: now, told: now, fraction: 0 };
+  run = thisRun;
+  try {
+    core ??= open(new WebAssembly.Instance(module, imports(module)));
+    return callIn(core, name, args, types, thisRun);
+  } catch (error) {
+    if (error instanceof SoapfilmError || (thisRun.stop && error === thisRun.stop.reason)) {
+      throw error;
+    }
+    throw trapped(error);
+  } finally {
+    run = undefined;
+    if (core && core.memory.buffer.byteLength > kKeepBytes) core = undefined;
+  }
+}
+
+/** `callCore` in one instance: arguments in, call, results out, everything freed. */
+function callIn<const T extends readonly ArrayType[]>(
+  { memory, find }: Core,
+  name: string,
+  args: readonly CoreArgument[],
+  types: T,
+  thisRun: Run,
+): { found: boolean; arrays: Arrays<T> } {
+  const entry = find(name);
+  // One block: `where` [4], `result` and 4 bytes of padding, then the arrays.
+  let size = 24;
+  for (const arg of args) {
+    if (arg !== null && typeof arg !== 'number') size += padded(arg.byteLength);
+  }
+  const block = size < 2 ** 32 ? find('sf_alloc')(size) >>> 0 : 0;
+  if (block === 0) throw new SoapfilmError('out-of-memory', 'The input does not fit into memory');
+  const where = block;
+  const result = block + 16;
+  new Uint32Array(memory.buffer, block, 6).fill(0xffffffff, 0, 4).fill(0, 4);
+  let next = block + 24;
+  const values = args.map((arg) => {
+    if (arg === null) return 0;
+    if (typeof arg === 'number') return arg;
+    const address = next;
+    new Uint8Array(memory.buffer, address, arg.byteLength).set(
+      new Uint8Array(arg.buffer, arg.byteOffset, arg.byteLength),
+    );
+    next += padded(arg.byteLength);
+    return address;
+  });
+  const status = entry(...values, where, result);
+  const handle = new Uint32Array(memory.buffer, result, 1)[0];
+  let arrays: Arrays<T> | undefined;
+  try {
+    if (status === kOk || status === kNotFound) {
+      arrays = types.map((type, i) => {
+        const address = find('sf_result_data')(handle, i) >>> 0;
+        const length = find('sf_result_length')(handle, i) >>> 0;
+        return length === 0 ? new type(0) : new type(memory.buffer, address, length).slice();
+      }) as unknown as Arrays<T>;
+    }
+  } catch (error) {
+    if (error instanceof WebAssembly.RuntimeError || error instanceof SoapfilmError) throw error;
+    throw new SoapfilmError('out-of-memory', 'The result does not fit into memory', undefined, {
+      cause: error,
+    });
+  } finally {
+    if (handle !== 0) find('sf_result_free')(handle);
+  }
+  const culprits = new Uint32Array(memory.buffer, where, 4).slice();
+  find('sf_free')(block);
+  if (thisRun.stop) throw thisRun.stop.reason;
+  if (!arrays) {
+    throw status === kStopped
+      ? new SoapfilmError('cancelled', 'The work was stopped')
+      : statusError(status, culprits);
+  }
+  return { found: status === kOk, arrays };
+}
+
+const padded = (bytes: number): number => Math.ceil(bytes / 8) * 8;
+
+/** After a trap: drops the instance, whose memory is in an unknown state, and names the trap. */
+function trapped(error: unknown): SoapfilmError {
+  const full = core ? !canGrow(core.memory) : error instanceof RangeError;
+  core = undefined;
+  const cause = { cause: error };
+  return full
+    ? new SoapfilmError('out-of-memory', 'WebAssembly memory ran out', undefined, cause)
+    : new SoapfilmError('crashed', `The core failed: ${String(error)}`, undefined, cause);
+}
+
+function canGrow(memory: WebAssembly.Memory): boolean {
+  try {
+    memory.grow(kProbePages);
+    return true;
+  } catch {
+    return false;
+  }
+}
