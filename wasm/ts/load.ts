@@ -40,10 +40,9 @@ export function compile(options: LoadOptions = {}): Promise<WebAssembly.Module> 
 
 async function compileFrom(source: LoadOptions['wasm']): Promise<WebAssembly.Module> {
   if (source === undefined) return compileDefault();
-  const given = await source;
-  if (given instanceof WebAssembly.Module) return given;
-  const isPlace = typeof given === 'string' || given instanceof URL;
-  return compileBytes(isPlace ? await host().read(given) : given);
+  if (source instanceof WebAssembly.Module) return source;
+  const isPlace = typeof source === 'string' || source instanceof URL;
+  return compileBytes(isPlace ? await host().read(source) : source);
 }
 
 /** core.wasm beside this script, else (a bundler lost it, or nothing is served) the inline copy. */
