@@ -1,0 +1,127 @@
+// The arrows between the parts of soapfilm, and a reader of the imports and includes that must
+// follow them.
+import { readFileSync, readdirSync, statSync } from 'node:fs';
+import path from 'node:path';
+
+/** What the files of each folder of wasm/src may include besides their own folder. */
+const kCore: Readonly<Partial<Record<string, readonly string[]>>> = {
+  base: [],
+  delaunay: ['base'],
+  loops: ['base', 'delaunay'],
+  mesh: ['base', 'delaunay', 'loops'],
+  polygon: ['base'],
+  surface: ['base', 'polygon'],
+  tin: ['base'],
+  abi: ['base', 'delaunay', 'loops', 'mesh', 'polygon', 'surface', 'tin'],
+};
+
+/** Names by which code outside wasm/ may know the library. */
+const kPublic = ['soapfilm', 'soapfilm/worker', 'soapfilm/core.wasm', 'soapfilm/package.json'];
+
+/** Words that only wasm/ts/runtime.ts has a use for. */
+const kMemory = /\bmemory\.buffer\b|\bWebAssembly\.(Instance|Memory|instantiate)\b|\bsf_(alloc|free|result_\w+)\b/;
+
+export interface SourceFile {
+  /** From the root of the repository, with forward slashes. */
+  readonly path: string;
+  readonly text: string;
+}
+
+/** All text files below the folders that may hold code. */
+export function readSources(root: string, folders: readonly string[]): SourceFile[] {
+  const skipped = new Set(['node_modules', 'dist', 'build', 'fixtures']);
+  const found: SourceFile[] = [];
+  const visit = (relative: string): void => {
+    for (const name of readdirSync(path.join(root, relative)).sort()) {
+      const below = `${relative}/${name}`;
+      if (skipped.has(name)) continue;
+      if (statSync(path.join(root, below)).isDirectory()) visit(below);
+      else if (/\.(cpp|h|ts|tsx|mjs|js)$/.test(name)) {
+        found.push({ path: below, text: readFileSync(path.join(root, below), 'utf8') });
+      }
+    }
+  };
+  folders.forEach(visit);
+  return found;
+}
+
+/** Every breach of the arrows in the files, as `path: reason`; empty when all is well. */
+export function breaches(files: readonly SourceFile[]): string[] {
+  return files.flatMap((file) => judge(file).map((reason) => `${file.path}: ${reason}`));
+}
+
+function judge(file: SourceFile): string[] {
+  if (/\.(cpp|h)$/.test(file.path)) return judgeIncludes(file);
+  if (file.path.startsWith('wasm/ts/')) return judgeLibrary(file);
+  if (file.path.startsWith('wasm/')) return [];
+  return judgeOutside(file);
+}
+
+/** Names in quotes that a C++ file includes, less what is in its own folder. */
+function includes(text: string): string[] {
+  return [...text.matchAll(/^\s*#\s*include\s*"([^"]+)"/gm)].map((match) => match[1]);
+}
+
+/** Modules that a script imports, statically or not. */
+function imports(text: string): string[] {
+  const code = text.replace(/\/\*[\s\S]*?\*\/|(^|\s)\/\/.*$/gm, '$1');
+  const pattern = /(?:\bfrom|\bimport)\s*\(?\s*['"]([^'"]+)['"]/g;
+  return [...code.matchAll(pattern)].map((match) => match[1]);
+}
+
+function judgeIncludes({ path: file, text }: SourceFile): string[] {
+  const names = includes(text);
+  if (!file.startsWith('wasm/src/')) {
+    const sees = file.startsWith('tests/cpp/') || file.startsWith('tests/bench/');
+    if (sees || file.startsWith('wasm/include/')) return [];
+    return names.filter((name) => name !== 'soapfilm.h').map((name) => `includes "${name}"`);
+  }
+  const folder = file.split('/')[2];
+  const allowed = kCore[folder];
+  if (!allowed) return [`wasm/src/${folder} has no place among the layers`];
+  return names.flatMap((name) => {
+    if (name === 'soapfilm.h') return folder === 'abi' ? [] : ['only abi includes soapfilm.h'];
+    const target = name.split('/')[0];
+    if (!name.includes('/') || name.startsWith('.')) {
+      return [`includes "${name}" without its folder`];
+    }
+    return target === folder || allowed.includes(target)
+      ? []
+      : [`${folder} includes "${name}", against the arrows`];
+  });
+}
+
+function judgeLibrary({ path: file, text }: SourceFile): string[] {
+  const name = path.posix.basename(file).replace(/(\.d)?\.ts$/, '');
+  const reasons: string[] = [];
+  for (const target of imports(text)) {
+    if (target.startsWith('node:')) {
+      if (!/(^|_)node(_|$)/.test(name)) reasons.push(`imports ${target} outside a Node file`);
+    } else if (!/^\.\/[a-z_]+\.js$/.test(target)) {
+      reasons.push(`imports ${target}, which is not a module of wasm/ts`);
+    } else if (/^\.\/(index|node)\.js$/.test(target) && !/^(index|node|worker_node)$/.test(name)) {
+      reasons.push(`imports ${target}, against the arrows`);
+    }
+  }
+  if (name !== 'runtime' && kMemory.test(text.replace(/\/\*[\s\S]*?\*\/|\/\/.*$/gm, ''))) {
+    reasons.push('knows the memory of the core, which is for runtime.ts alone');
+  }
+  return reasons;
+}
+
+function judgeOutside({ path: file, text }: SourceFile): string[] {
+  const top = file.split('/')[0];
+  return imports(text).flatMap((target) => {
+    if (target.startsWith('.')) {
+      const resolved = path.posix.join(path.posix.dirname(file), target);
+      if (resolved.startsWith('wasm/')) return [`imports ${target} instead of 'soapfilm'`];
+      const other = resolved.split('/')[0];
+      const crosses = other !== top && !(top === 'tests' && other === 'examples');
+      return crosses ? [`imports ${target} from another part`] : [];
+    }
+    if (/^soapfilm(\/|$)/.test(target) && !kPublic.includes(target)) {
+      return [`imports ${target}, which is not public`];
+    }
+    return [];
+  });
+}

@@ -1,0 +1,48 @@
+import path from 'node:path';
+import { describe, expect, test } from 'vitest';
+import { breaches, readSources } from './arrows.ts';
+
+const root = path.resolve(import.meta.dirname, '../..');
+const folders = ['wasm/src', 'wasm/include', 'wasm/ts', 'web', 'tests', 'examples'];
+
+describe('layers', () => {
+  test('the repository: every include and import follows the arrows', () => {
+    const files = readSources(root, folders).filter((file) => !file.path.startsWith('tests/layering/'));
+    expect(files.length).toBeGreaterThan(10);
+    expect(breaches(files)).toEqual([]);
+  });
+
+  const bad: [string, string, string][] = [
+    ['base that includes loops', 'wasm/src/base/vec.h', '#include "loops/span.h"'],
+    ['delaunay that includes abi', 'wasm/src/delaunay/a.cpp', '#include "abi/span.h"'],
+    ['polygon that includes loops', 'wasm/src/polygon/a.h', '#include "loops/span.h"'],
+    ['an include without its folder', 'wasm/src/loops/a.cpp', '#include "span.h"'],
+    ['an include by a path', 'wasm/src/loops/a.cpp', '#include "../base/vec.h"'],
+    ['the C ABI seen by a feature', 'wasm/src/loops/a.cpp', '#include "soapfilm.h"'],
+    ['a folder without a layer', 'wasm/src/util/a.h', '#include "base/vec.h"'],
+    ['pointers outside runtime.ts', 'wasm/ts/loops.ts', 'new Uint8Array(memory.buffer, 8, 4);'],
+    ['an allocation outside runtime.ts', 'wasm/ts/loops.ts', "call('sf_alloc', 8);"],
+    ['node: in a module for browsers', 'wasm/ts/load.ts', "import { readFile } from 'node:fs';"],
+    ['a package in the library', 'wasm/ts/load.ts', "import { zip } from 'fflate';"],
+    ['a feature that imports the index', 'wasm/ts/loops.ts', "import { load } from './index.js';"],
+    ['a page that reaches into wasm', 'web/src/a.ts', "import { load } from '../../wasm/ts/load.js';"],
+    ['a test that reaches into dist', 'tests/unit/a.test.ts', "await import('../../wasm/dist/index.js')"],
+    ['an example with a private name', 'examples/01.mjs', "import 'soapfilm/wasm/dist/load.js';"],
+    ['a page that imports tests', 'web/src/a.ts', "import { circle } from '../../tests/support/a.ts';"],
+  ];
+  test.each(bad)('%s: is found', (_, file, text) => {
+    expect(breaches([{ path: file, text }])).toHaveLength(1);
+  });
+
+  const good: [string, string, string][] = [
+    ['loops on delaunay', 'wasm/src/loops/a.cpp', '#include "delaunay/delaunay.h"\n#include <vector>'],
+    ['abi on all', 'wasm/src/abi/a.cpp', '#include "soapfilm.h"\n#include "loops/span.h"'],
+    ['a test of the core', 'tests/cpp/a.cpp', '#include "loops/span.h"'],
+    ['Node in a Node file', 'wasm/ts/node_host.ts', "import { Worker } from 'node:worker_threads';"],
+    ['the library by name', 'web/src/a.ts', "import { load } from 'soapfilm';\nimport * as t from 'three';"],
+    ['an import in a comment', 'wasm/ts/load.ts', "// import { load } from 'soapfilm'"],
+  ];
+  test.each(good)('%s: is allowed', (_, file, text) => {
+    expect(breaches([{ path: file, text }])).toEqual([]);
+  });
+});

@@ -1,0 +1,136 @@
+// npm run build [core | library | page]: builds what has changed, all of it without an argument.
+//   core     wasm/src → core.wasm
+//   library  core, and wasm/ts → the package in wasm/dist
+//   page     library, and web → the static page in web/dist
+import { readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { Failure, buildRoot, jobs, main, root, run, runTool, say } from './run.mjs';
+import { listFiles, unlessUpToDate, writeIfChanged } from './stamp.mjs';
+import { checkNode, emscriptenEnvironment, ensureNodeModules, ensureTools } from './tools.mjs';
+
+const dist = path.join(root, 'wasm/dist');
+const scripts = ['wasm/scripts/build.mjs'];
+const packages = ['package.json', 'package-lock.json'];
+
+/** Configures and builds a CMake preset. */
+export async function buildPreset(preset, { launcher = [], env = {} } = {}) {
+  const cwd = path.join(root, 'wasm');
+  const configure = [...launcher, 'cmake', '--preset', preset];
+  const options = { cwd, env, capture: true };
+  await run(configure[0], configure.slice(1), options);
+  await run('cmake', ['--build', '--preset', preset, '-j', String(jobs)], options);
+}
+
+export async function buildCore() {
+  const { paths } = await ensureTools(['emcc', 'cmake', 'ninja']);
+  const step = {
+    inputs: ['wasm/src', 'wasm/include', 'wasm/CMakeLists.txt', 'wasm/CMakePresets.json', ...scripts],
+    facts: [paths.emcc, statSync(paths.emcc).mtimeMs],
+    outputs: ['wasm/dist/core.wasm'],
+  };
+  await unlessUpToDate('core.wasm', step, async () => {
+    const env = emscriptenEnvironment(paths.emcc);
+    const launcher = [path.join(path.dirname(paths.emcc), 'emcmake')];
+    await buildPreset('emscripten', { launcher, env });
+    const built = path.join(buildRoot, 'emscripten/core.wasm');
+    writeIfChanged(path.join(dist, 'core.wasm'), readFileSync(built));
+  });
+}
+
+/** wasm/ts by the TypeScript compiler, module by module; then the modules that are generated. */
+export async function buildLibrary() {
+  await buildCore();
+  await ensureNodeModules();
+  const step = {
+    inputs: ['wasm/ts', 'wasm/tsconfig.json', 'tsconfig.json', ...packages, ...scripts, 'wasm/dist/core.wasm'],
+    facts: readFileSync(path.join(dist, 'core.wasm')).length,
+    outputs: ['wasm/dist/index.js', 'wasm/dist/index.d.ts'],
+  };
+  await unlessUpToDate('library', step, async () => {
+    // Compiled aside and copied over: whoever uses wasm/dist meanwhile sees only whole files.
+    const staging = path.join(buildRoot, 'library');
+    rmSync(staging, { recursive: true, force: true });
+    const project = path.join(root, 'wasm/tsconfig.json');
+    const args = ['-p', project, '--outDir', staging, '--noEmitOnError', '--pretty', 'false'];
+    await runTool('typescript/bin/tsc', args, { capture: true });
+    await generateModules(staging);
+    const names = readdirSync(staging);
+    for (const name of names) {
+      writeIfChanged(path.join(dist, name), readFileSync(path.join(staging, name)));
+    }
+    for (const name of readdirSync(dist)) {
+      if (name !== 'core.wasm' && !names.includes(name)) {
+        rmSync(path.join(dist, name), { recursive: true });
+      }
+    }
+  });
+}
+
+/**
+ * Scripts that run by themselves, and files turned into modules:
+ * worker_thread*.js, bundled so that a thread needs no other file;
+ * core_inline.js, core.wasm in base64; any other *_inline.js, that script as text.
+ */
+async function generateModules(folder) {
+  const { build } = await import('esbuild');
+  const bundle = async (stem, format) => {
+    const { outputFiles } = await build({
+      entryPoints: [path.join(folder, `${stem}.js`)],
+      bundle: true,
+      minify: true,
+      write: false,
+      format,
+      platform: stem.endsWith('_node') ? 'node' : 'browser',
+      target: 'es2022',
+    });
+    return outputFiles[0].text;
+  };
+  const stems = readdirSync(folder).filter((name) => /^worker_thread(_node)?\.js$/.test(name));
+  const bundled = new Map();
+  for (const stem of stems.map((name) => name.slice(0, -3))) {
+    bundled.set(stem, await bundle(stem, 'esm'));
+  }
+  for (const declared of listFiles(['wasm/ts'], (name) => name.endsWith('_inline.d.ts'))) {
+    const name = path.basename(declared, '.d.ts');
+    const stem = name.slice(0, -'_inline'.length);
+    const content =
+      stem === 'core'
+        ? readFileSync(path.join(dist, 'core.wasm')).toString('base64')
+        : await bundle(stem, stem.endsWith('_node') ? 'cjs' : 'iife');
+    writeFileSync(path.join(folder, `${name}.js`), `export default ${JSON.stringify(content)};\n`);
+  }
+  for (const [stem, text] of bundled) writeFileSync(path.join(folder, `${stem}.js`), text);
+}
+
+export async function buildPage() {
+  await buildLibrary();
+  const step = {
+    inputs: ['web', 'vite.config.js', 'tsconfig.json', ...packages, ...scripts],
+    facts: libraryDigest(),
+    outputs: ['web/dist/index.html'],
+  };
+  await unlessUpToDate('page', step, async () => {
+    await runTool('vite/bin/vite.js', ['build', '--logLevel', 'warn']);
+  });
+}
+
+// Size and time of the built library's files: the page bundles them.
+function libraryDigest() {
+  return readdirSync(dist).map((name) => {
+    const { size, mtimeMs } = statSync(path.join(dist, name));
+    return [name, size, mtimeMs];
+  });
+}
+
+const kTargets = { core: buildCore, library: buildLibrary, page: buildPage };
+
+if (import.meta.url === pathToFileURL(process.argv[1]).href) {
+  await main(async () => {
+    const target = process.argv[2] ?? 'page';
+    if (!(target in kTargets)) throw new Failure(`build ${target}: not one of ${Object.keys(kTargets).join(', ')}`);
+    checkNode();
+    await kTargets[target]();
+    say('Built.');
+  });
+}
