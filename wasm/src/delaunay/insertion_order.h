@@ -1,0 +1,26 @@
+// Orders of points: equal ones together, and the order in which to insert them.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "base/array_view.h"
+#include "base/vec.h"
+#include "base/work.h"
+
+namespace sf {
+
+/// firstOf[i] becomes the least j with points[j] == points[i] (-0 equals 0). O(n) expected time.
+///   points   [n] finite
+///   firstOf  [n] the result
+/// False, with nothing to use in firstOf, once the work has to end.
+bool findEqualPoints(ArrayView<const Vec3> points, Work& work, std::vector<uint32_t>& firstOf);
+
+/// Puts point numbers into a biased randomized insertion order: rounds, each about twice as large
+/// as the one before, chosen by a fixed hash of the number; Hilbert order inside of each round.
+/// Source: Amenta, Choi, Rote 2003, "Incremental constructions con BRIO"; Skilling 2004,
+/// "Programming the Hilbert curve", for the curve.
+///   points  all points, of magnitude at most 1
+///   order   the numbers of those to be sorted; reordered
+bool sortForInsertion(ArrayView<const Vec3> points, Work& work, std::vector<uint32_t>& order);
+
+}  // namespace sf
