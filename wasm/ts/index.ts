@@ -1,4 +1,5 @@
 export { load } from './load.js';
 export { SoapfilmError } from './errors.js';
+export { formatLoops, formatObj, parseLoops, type LoopFile, type LoopFormat } from './formats.js';
 export type * from './errors.js';
 export type * from './types.js';

@@ -1,0 +1,68 @@
+// Lines in JSON: engines differ in whether and how they say where a text is wrong.
+
+const kSpace = /[ \t\r\n]*/y;
+const kToken =
+  // eslint-disable-next-line no-control-regex -- JSON forbids control characters in strings
+  /([[\]{}:,])|("(?:[^"\\\u0000-\u001f]|\\(?:["\\/bfnrt]|u[\da-fA-F]{4}))*")|(?:-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][+-]?\d+)?|true|false|null)(?![\w.+-])/y;
+
+type Awaited = 'value' | 'key' | 'colon' | 'comma';
+
+/**
+ * The line of the value at `path`, of the first place that is not JSON if that comes earlier, or
+ * undefined if neither exists. Linear time, no recursion.
+ * @param path keys and indices from the root
+ */
+export function jsonLine(
+  text: string,
+  path?: readonly (string | number)[],
+): number | undefined {
+  const lineAt = (offset: number): number => text.slice(0, offset).split(/\r\n?|\n/).length;
+  // Containers around the current place: the key, or the index, of the value within each.
+  const keys: (string | number)[] = [];
+  let awaited = 'value' as Awaited;
+  let empty = false;
+  let place = 0;
+  for (;;) {
+    kSpace.lastIndex = place;
+    kSpace.exec(text);
+    place = kSpace.lastIndex;
+    kToken.lastIndex = place;
+    const match: readonly (string | undefined)[] | null = kToken.exec(text);
+    if (!match) {
+      const whole = place === text.length && awaited === 'comma' && keys.length === 0;
+      return whole ? undefined : lineAt(place);
+    }
+    const [, mark, string] = match;
+    const begin = place;
+    place = kToken.lastIndex;
+    const top = keys[keys.length - 1];
+    const closes = (mark === ']' && typeof top === 'number') || (mark === '}' && typeof top === 'string');
+    if (closes && (awaited === 'comma' || empty)) {
+      keys.pop();
+      awaited = 'comma';
+      empty = false;
+      continue;
+    }
+    if (awaited === 'comma' && mark === ',' && keys.length > 0) {
+      if (typeof top === 'number') keys[keys.length - 1] = top + 1;
+      awaited = typeof top === 'number' ? 'value' : 'key';
+    } else if (awaited === 'colon' && mark === ':') {
+      awaited = 'value';
+    } else if (awaited === 'key' && string !== undefined) {
+      keys[keys.length - 1] = JSON.parse(string) as string;
+      awaited = 'colon';
+    } else if (awaited === 'value' && (mark === undefined || mark === '[' || mark === '{')) {
+      if (path?.length === keys.length && path.every((key, i) => key === keys[i])) {
+        return lineAt(begin);
+      }
+      empty = mark !== undefined;
+      if (mark === '[') keys.push(0);
+      if (mark === '{') keys.push('');
+      awaited = mark === '{' ? 'key' : mark === '[' ? 'value' : 'comma';
+      continue;
+    } else {
+      return lineAt(begin);
+    }
+    empty = false;
+  }
+}
