@@ -87,14 +87,14 @@ function describeDoctestCase(text) {
 }
 
 /** The vitest tests of one folder. */
-export async function vitest(folder) {
+export async function vitest(folder, env = {}) {
   const file = reportFile(`${path.basename(folder)}.json`);
   const args = ['run', '--dir', folder, '--reporter=default', '--reporter=json', `--outputFile.json=${file}`];
   const { code, output } = await runTool('vitest/vitest.mjs', args, {
     capture: true,
     allowFailure: true,
     seconds: 900,
-    env: { NO_COLOR: '1' },
+    env: { ...env, NO_COLOR: '1' },
   });
   const report = JSON.parse(readReport(file) || '{}');
   const passed = report.numPassedTests ?? 0;

@@ -24,7 +24,7 @@ await main(async () => {
   const tools = [];
   if (needsLibrary) tools.push('emcc', 'cmake', 'ninja');
   if (chosen('cpp')) tools.push('cmake', 'ninja', 'compiler', 'doctest');
-  if (chosen('page')) tools.push('chromium');
+  if (chosenOf('pack', 'page')) tools.push('chromium');
   if (chosen('format')) tools.push('clangFormat');
   const { paths, missing } = await ensureTools([...new Set(tools)]);
   if (needsLibrary || chosen('layering')) await ensureNodeModules();
@@ -73,7 +73,9 @@ await main(async () => {
       }
       await suite('layering', 'layering', null, () => vitest('tests/layering'));
       await suite('unit', 'API in Node', 'library', () => vitest('tests/unit'));
-      await suite('pack', 'packed package', 'library', () => vitest('tests/pack'));
+      await suite('pack', 'packed package', 'library', () =>
+        vitest('tests/pack', { CHROMIUM: paths.chromium }),
+      );
     })(),
   ]);
   // Alone: pointer strokes on a software-rendered page suffer from a busy machine.

@@ -1,0 +1,39 @@
+// Off the main thread: progress, cancelling, and two solves at once.
+import { createWorker } from 'soapfilm/worker';
+
+const film = await createWorker();
+
+const wave = (radius, z, count) =>
+  Array.from({ length: count }, (_, i) => {
+    const angle = (2 * Math.PI * i) / count;
+    return [radius * Math.cos(angle), radius * Math.sin(angle), z + 0.3 * Math.cos(2 * angle)];
+  });
+
+const [tube, disc] = await Promise.all([
+  film.spanLoops([wave(1, 0, 12), wave(1, 1, 12)]),
+  film.spanLoops([wave(1, 0, 40)]),
+]);
+console.log(`tube: ${tube.triangles.length / 3} triangles`);
+console.log(`disc: ${disc.triangles.length / 3} triangles`);
+
+// Cancelling rejects the promise with the code `cancelled`; the worker can be used again.
+const controller = new AbortController();
+const long = film.spanLoops([wave(1, 0, 400), wave(1, 2, 400)], {
+  candidates: 'all',
+  signal: controller.signal,
+});
+setTimeout(() => controller.abort(), 200);
+try {
+  await long;
+} catch (error) {
+  console.log(`cancelled: ${error.code}`);
+}
+
+let reports = 0;
+const last = await film.spanLoops([wave(1, 0, 200)], {
+  candidates: 'all',
+  onProgress: () => (reports += 1),
+});
+console.log(`afterwards: ${last.triangles.length / 3} triangles, progress reported ${reports > 0}`);
+
+film.dispose();

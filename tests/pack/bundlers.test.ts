@@ -1,0 +1,139 @@
+import { createServer, type Server } from 'node:http';
+import { mkdir, readFile, writeFile } from 'node:fs/promises';
+import type { AddressInfo } from 'node:net';
+import path from 'node:path';
+import { chromium, type Browser } from '@playwright/test';
+import { build as esbuild } from 'esbuild';
+import { build as vite } from 'vite';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { list, packAndInstall, type Consumer } from './consumer.ts';
+
+// An app that spans two loops on the main thread and in a worker, and says so in its title.
+const kApp = `
+  import { load, spanLoops } from 'soapfilm';
+  import { createWorker } from 'soapfilm/worker';
+  const ring = (count, z) => Array.from({ length: count }, (_, i) =>
+    [Math.cos(2 * Math.PI * i / count), Math.sin(2 * Math.PI * i / count), z]);
+  const loops = [ring(6, 0), ring(8, 1)];
+  async function start() {
+    await load();
+    const here = spanLoops(loops);
+    const film = await createWorker();
+    const there = await film.spanLoops(loops);
+    film.dispose();
+    return here.triangles.length / 3 + ' ' + there.triangles.length / 3;
+  }
+  start().then(
+    (title) => (document.title = title),
+    (error) => (document.title = 'failed: ' + error.message),
+  );`;
+const kTitle = '14 14';
+
+const kTypes: Readonly<Record<string, string>> = {
+  '.html': 'text/html',
+  '.js': 'text/javascript',
+  '.wasm': 'application/wasm',
+};
+
+let consumer: Consumer;
+let browser: Browser;
+beforeAll(async () => {
+  consumer = await packAndInstall();
+  const isRoot = process.getuid?.() === 0;
+  browser = await chromium.launch({
+    ...(process.env.CHROMIUM ? { executablePath: process.env.CHROMIUM } : { channel: 'chromium' }),
+    args: isRoot ? ['--no-sandbox'] : [],
+  });
+});
+afterAll(async () => {
+  await browser.close();
+  await consumer.remove();
+});
+
+async function writeApp(name: string, html: string): Promise<string> {
+  const folder = path.join(consumer.folder, name);
+  await mkdir(folder);
+  await writeFile(path.join(folder, 'app.js'), kApp);
+  await writeFile(path.join(folder, 'index.html'), html);
+  return folder;
+}
+
+/** Serves a folder; `headers` go with every answer. */
+async function serve(folder: string, headers: Record<string, string> = {}): Promise<Server> {
+  const server = createServer((request, response) => {
+    const name = decodeURIComponent(new URL(request.url ?? '/', 'http://localhost').pathname);
+    const file = path.join(folder, name === '/' ? 'index.html' : name);
+    readFile(file).then(
+      (data) => {
+        const type = kTypes[path.extname(file)] ?? 'application/octet-stream';
+        response.writeHead(200, { 'content-type': type, ...headers }).end(data);
+      },
+      () => response.writeHead(404).end(),
+    );
+  });
+  await new Promise<void>((resolve) => server.listen(0, '127.0.0.1', resolve));
+  return server;
+}
+
+/** The title that the app gives its page, and the paths that the page asked for. */
+async function visit(server: Server): Promise<{ title: string; asked: string[] }> {
+  const { port } = server.address() as AddressInfo;
+  const page = await browser.newPage();
+  const asked: string[] = [];
+  page.on('request', (request) => asked.push(new URL(request.url()).pathname));
+  try {
+    await page.goto(`http://127.0.0.1:${port}/`);
+    await page.waitForFunction(() => document.title !== '', undefined, { timeout: 30_000 });
+    return { title: await page.title(), asked };
+  } finally {
+    await page.close();
+    server.close();
+  }
+}
+
+const kHtml = '<!doctype html><script type="module" src="./app.js"></script>';
+
+describe('bundlers', () => {
+  test('vite: core.wasm and the worker become assets, and both entries work', async () => {
+    const root = await writeApp('vite', kHtml);
+    await vite({ root, base: './', logLevel: 'error', configFile: false });
+    const files = await list(path.join(root, 'dist/assets'));
+    expect(files.filter((file) => /^core-.*\.wasm$/.test(file))).toHaveLength(1);
+    expect(files.filter((file) => /^worker_thread-.*\.js$/.test(file))).toHaveLength(1);
+    const { title, asked } = await visit(await serve(path.join(root, 'dist')));
+    expect(title).toBe(kTitle);
+    expect(asked.some((file) => /core-.*\.wasm$/.test(file))).toBe(true);
+    expect(asked.some((file) => /inline/.test(file))).toBe(false);
+  });
+
+  test("vite: works under a policy of 'self' and 'wasm-unsafe-eval'", async () => {
+    const root = path.join(consumer.folder, 'vite/dist');
+    const policy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'";
+    const { title } = await visit(await serve(root, { 'content-security-policy': policy }));
+    expect(title).toBe(kTitle);
+  });
+
+  test('esbuild: loses the files and falls back to the inline copies', async () => {
+    const root = await writeApp('esbuild', kHtml.replace('./app.js', './out/app.js'));
+    await esbuild({
+      entryPoints: [path.join(root, 'app.js')],
+      bundle: true,
+      format: 'esm',
+      splitting: true,
+      outdir: path.join(root, 'out'),
+      logLevel: 'error',
+    });
+    expect((await visit(await serve(root))).title).toBe(kTitle);
+  });
+
+  test('no bundler: served as it is, with an import map', async () => {
+    const dist = './node_modules/soapfilm/wasm/dist';
+    const map = { imports: { soapfilm: `${dist}/index.js`, 'soapfilm/worker': `${dist}/worker.js` } };
+    const html = kHtml.replace('<script', `<script type="importmap">${JSON.stringify(map)}</script><script`);
+    await writeFile(path.join(consumer.folder, 'app.js'), kApp);
+    await writeFile(path.join(consumer.folder, 'index.html'), html);
+    const { title, asked } = await visit(await serve(consumer.folder));
+    expect(title).toBe(kTitle);
+    expect(asked).toContain('/node_modules/soapfilm/wasm/dist/core.wasm');
+  });
+});

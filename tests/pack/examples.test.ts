@@ -1,0 +1,80 @@
+// The examples run as a reader runs them, against the installed package.
+import { cp } from 'node:fs/promises';
+import path from 'node:path';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { execute, list, packAndInstall, repository, type Consumer } from './consumer.ts';
+
+let consumer: Consumer;
+beforeAll(async () => {
+  consumer = await packAndInstall();
+  await cp(path.join(repository, 'examples'), path.join(consumer.folder, 'examples'), { recursive: true });
+});
+afterAll(() => consumer.remove());
+
+const run = (name: string): Promise<string> =>
+  execute(process.execPath, [path.join('examples', name)], consumer.folder);
+
+/** The numbers with a decimal point in a text. */
+const decimals = (text: string): number[] => (text.match(/\d+\.\d+/g) ?? []).map(Number);
+
+describe('examples', () => {
+  test('the course: each step is checked here', async () => {
+    const steps = (await list(path.join(repository, 'examples'))).filter((name) => name.endsWith('.mjs'));
+    expect(steps).toEqual([
+      '01-one-curve.mjs',
+      '02-two-curves.mjs',
+      '03-weights.mjs',
+      '04-candidates.mjs',
+      '05-worker.mjs',
+    ]);
+  });
+
+  test('01-one-curve: 24 vertices give 22 triangles, proven best', async () => {
+    const output = await run('01-one-curve.mjs');
+    expect(output).toContain('22 triangles on 24 vertices');
+    expect(output).toContain('proven to be the best: true');
+    const [area] = decimals(output);
+    // The rim spans a graph over the unit disc, so its area exceeds the 24-gon's.
+    expect(area).toBeGreaterThan(12 * Math.sin(Math.PI / 12));
+  });
+
+  test('02-two-curves: 40 triangles of less area than the discs across', async () => {
+    const output = await run('02-two-curves.mjs');
+    expect(output).toContain('40 triangles');
+    const [area] = decimals(output);
+    // A cone's frustum through the same circles, from which 20 chords take a little.
+    const frustum = Math.PI * 1.7 * Math.hypot(0.3, 0.8);
+    expect(area).toBeLessThan(frustum * 1.01);
+    expect(area).toBeGreaterThan(frustum * 0.95);
+  });
+
+  test('03-weights: each setting wins by its own measure', async () => {
+    const rows = (await run('03-weights.mjs')).trim().split('\n').slice(1).map(decimals);
+    expect(rows).toHaveLength(4);
+    const [area, bending, mix, worst] = rows;
+    for (const row of rows) {
+      expect(area[0]).toBeLessThanOrEqual(row[0]);
+      expect(bending[1]).toBeLessThanOrEqual(row[1]);
+      expect(worst[2]).toBeLessThanOrEqual(row[2]);
+      const cost = ([a, b]: number[]): number => a + 0.2 * b;
+      expect(cost(mix)).toBeLessThanOrEqual(cost(row) + 1e-3);
+    }
+  });
+
+  test('04-candidates: all is no worse than Delaunay, own walls have area 4, a gap no answer', async () => {
+    const [all, delaunay, own, open] = (await run('04-candidates.mjs')).trim().split('\n');
+    expect(all).toMatch(/^all: 56 candidates/);
+    expect(decimals(all)[0]).toBeLessThanOrEqual(decimals(delaunay)[0]);
+    expect(own).toBe('own list: area 4.0000');
+    expect(open).toBe('a wall less: found is false');
+  });
+
+  test('05-worker: two solves, a cancel, and another solve', async () => {
+    expect((await run('05-worker.mjs')).trim().split('\n')).toEqual([
+      'tube: 24 triangles',
+      'disc: 38 triangles',
+      'cancelled: cancelled',
+      'afterwards: 198 triangles, progress reported true',
+    ]);
+  });
+});

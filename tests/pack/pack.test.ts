@@ -1,0 +1,136 @@
+import { readFile, writeFile } from 'node:fs/promises';
+import path from 'node:path';
+import { gzipSync } from 'node:zlib';
+import { build } from 'esbuild';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { executeTool, packAndInstall, repository, type Consumer } from './consumer.ts';
+
+let consumer: Consumer;
+beforeAll(async () => {
+  consumer = await packAndInstall();
+});
+afterAll(() => consumer.remove());
+
+/** Two rings of 6 and 8 points: 14 + 2 * 2 - 4 triangles. */
+const kRings = `
+  const ring = (count, z) => Array.from({ length: count }, (_, i) =>
+    [Math.cos(2 * Math.PI * i / count), Math.sin(2 * Math.PI * i / count), z]);
+  const loops = [ring(6, 0), ring(8, 1)];`;
+const kTriangles = '14';
+
+describe('the tarball', () => {
+  test('contents: the built library and its documents, nothing else', () => {
+    const strange = consumer.files.filter((file) => !/^wasm\/dist\/[a-z_]+(\.d\.ts|\.js|\.wasm)$/.test(file));
+    expect(strange).toEqual(['CHANGELOG.md', 'LICENSE', 'README.md', 'package.json']);
+    for (const name of ['core.wasm', 'index.js', 'index.d.ts', 'worker.js', 'worker.d.ts']) {
+      expect(consumer.files).toContain(`wasm/dist/${name}`);
+    }
+  });
+
+  test('dependencies: none are installed with it', async () => {
+    const lock = JSON.parse(await readFile(path.join(consumer.folder, 'package-lock.json'), 'utf8')) as {
+      packages: Record<string, unknown>;
+    };
+    expect(Object.keys(lock.packages)).toEqual(['', 'node_modules/soapfilm']);
+  });
+
+  test('publint: nothing to say', async () => {
+    const output = await executeTool('publint/src/cli.js', ['run', consumer.tarball, '--strict'], repository);
+    expect(output).toMatch(/All good/i);
+  });
+
+  test('are the types wrong: no', async () => {
+    const args = [consumer.tarball, '--profile', 'esm-only', '--exclude-entrypoints', './core.wasm'];
+    await executeTool('@arethetypeswrong/cli/dist/index.js', args, repository);
+  });
+
+  test('size: core.wasm up to 150 KB and the scripts up to 8 KB, gzipped', async () => {
+    const dist = path.join(consumer.folder, 'node_modules/soapfilm/wasm/dist');
+    const core = gzipSync(await readFile(path.join(dist, 'core.wasm'))).length;
+    expect(core).toBeLessThanOrEqual(150 * 1024);
+    const { outputFiles } = await build({
+      entryPoints: [path.join(dist, 'index.js')],
+      bundle: true,
+      minify: true,
+      format: 'esm',
+      write: false,
+      external: ['*_inline.js'],
+    });
+    expect(gzipSync(outputFiles[0].contents).length).toBeLessThanOrEqual(8 * 1024);
+  });
+});
+
+describe('in Node', () => {
+  test('spanLoops: spans two loops', async () => {
+    const source = `import { load, spanLoops } from 'soapfilm'; ${kRings}
+      await load();
+      const span = spanLoops(loops);
+      console.log(span.triangles.length / 3);`;
+    expect((await consumer.run('span.mjs', source)).trim()).toBe(kTriangles);
+  });
+
+  test('the worker: spans two loops and lets the process end', async () => {
+    const source = `import { createWorker } from 'soapfilm/worker'; ${kRings}
+      const film = await createWorker();
+      const span = await film.spanLoops(loops);
+      console.log(span.triangles.length / 3);
+      film.dispose();`;
+    expect((await consumer.run('worker.mjs', source)).trim()).toBe(kTriangles);
+  });
+
+  test('SoapfilmError: is one class for both entries', async () => {
+    const source = `import { SoapfilmError } from 'soapfilm';
+      import { createWorker } from 'soapfilm/worker';
+      const film = await createWorker();
+      const error = await film.spanLoops([]).catch((error) => error);
+      console.log(error instanceof SoapfilmError, error.code);
+      film.dispose();`;
+    expect((await consumer.run('error.mjs', source)).trim()).toBe('true no-loops');
+  });
+
+  test('core.wasm: is found by name, and load takes its bytes', async () => {
+    const source = `import { readFile } from 'node:fs/promises';
+      import { load, spanLoops } from 'soapfilm'; ${kRings}
+      await load({ wasm: await readFile(new URL(import.meta.resolve('soapfilm/core.wasm'))) });
+      console.log(spanLoops(loops).triangles.length / 3);`;
+    expect((await consumer.run('bytes.mjs', source)).trim()).toBe(kTriangles);
+  });
+});
+
+describe('in TypeScript', () => {
+  test.each(['bundler', 'nodenext'])('%s: a strict program compiles against the types', async (resolution) => {
+    const source = `
+      import { load, spanLoops, SoapfilmError, type LoopSet, type SpanOptions } from 'soapfilm';
+      import { createWorker } from 'soapfilm/worker';
+      const loops: LoopSet = { positions: new Float64Array(9), starts: Uint32Array.of(0, 3) };
+      const options: SpanOptions = { weights: { area: 1 }, onProgress: (fraction) => fraction + 1 };
+      await load();
+      try {
+        const span = spanLoops(loops, options);
+        const count: number = span.found ? span.triangles.length : span.reason.length;
+        const film = await createWorker();
+        const again = await film.spanLoops([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], { signal: AbortSignal.timeout(count) });
+        if (again.found) again.positions.fill(0);
+        film.dispose();
+      } catch (error) {
+        if (error instanceof SoapfilmError && error.code === 'bad-loops') throw error;
+      }
+      // @ts-expect-error: not a weight
+      spanLoops(loops, { weights: { volume: 1 } });`;
+    await writeFile(path.join(consumer.folder, 'program.ts'), source);
+    const options = {
+      module: resolution === 'bundler' ? 'esnext' : 'nodenext',
+      moduleResolution: resolution,
+      target: 'es2022',
+      lib: ['es2022', 'dom', 'esnext.disposable'],
+      strict: true,
+      exactOptionalPropertyTypes: true,
+      noEmit: true,
+      skipLibCheck: false,
+      types: [],
+    };
+    const project = path.join(consumer.folder, `tsconfig.${resolution}.json`);
+    await writeFile(project, JSON.stringify({ compilerOptions: options, files: ['program.ts'] }));
+    await executeTool('typescript/bin/tsc', ['-p', project], consumer.folder);
+  });
+});
