@@ -5,6 +5,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "base/status.h"
 
@@ -72,7 +73,7 @@ class Work {
   size_t used_ = 0, peak_ = 0;
   uint32_t pending_ = 0;
   double fraction_ = 0, phaseStart_ = 0, phaseEnd_ = 1;
-  double best_ = 1.0 / 0.0, lower_ = 0;
+  double best_ = std::numeric_limits<double>::infinity(), lower_ = 0;
   Status status_ = Status::Ok;
 };
 

@@ -14,14 +14,14 @@ enum class Space : int32_t { Auto = 0, All = 1, Delaunay = 2, Near = 3, Given = 
 enum class Objective : int32_t { Sum = 0, WorstDihedral = 1 };
 
 struct SpanOptions {
-  double areaWeight = 0;       // per square unit
+  double areaWeight = 0;       // per square unit; NaN: 1e-3 / (bounding-box diagonal)^2
   double perimeterWeight = 0;  // per unit of triangle perimeter
   double dihedralWeight = 1;   // per radian
   Objective objective = Objective::Sum;
   Space space = Space::Auto;
-  ArrayView<const double> boundaryNormals;   // [3n] or empty; NaN triple: no face across that edge
-  ArrayView<const uint32_t> triangles;       // [3c] for Space::Given
-  ArrayView<const double> triangleWeights;   // [c] added to each candidate's weight, or empty
+  ArrayView<const double> boundaryNormals;  // [3n] or empty; NaN triple: no face across that edge
+  ArrayView<const uint32_t> triangles;      // [3c] for Space::Given
+  ArrayView<const double> triangleWeights;  // [c] added to each candidate's weight, or empty
 };
 
 /// Sums over a surface. Angles in radians between consistently oriented normals.
@@ -42,12 +42,12 @@ struct InsertedVertex {
 
 struct Span {
   bool found = false;
-  Space space = Space::All;           // the candidate space that the answer is from
-  std::vector<Vec3> positions;        // [n'] input first, in input order, then inserted vertices
-  std::vector<uint32_t> triangles;    // [3m], m = n' + 2k - 4, consistently wound
-  std::vector<uint32_t> order;        // [m] triangles in the order of splitting
-  std::vector<uint32_t> starts;       // [k+1] of loopVertices
-  std::vector<uint32_t> loopVertices; // [n'] the loops of the result as indices into positions
+  Space space = Space::All;              // the candidate space that the answer is from
+  std::vector<Vec3> positions;           // [n'] input first, in input order, then inserted vertices
+  std::vector<uint32_t> triangles;       // [3m], m = n' + 2k - 4, consistently wound
+  std::vector<uint32_t> order;           // [m] triangles in the order of splitting
+  std::vector<uint32_t> starts;          // [k+1] of loopVertices
+  std::vector<uint32_t> loopVertices;    // [n'] the loops of the result as indices into positions
   std::vector<InsertedVertex> inserted;  // [n' - n]
   SpanTerms terms;
   double cost = 0;        // what the objective measures: weighted sum, or the largest angle

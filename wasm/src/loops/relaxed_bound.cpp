@@ -1,0 +1,156 @@
+#include "loops/relaxed_bound.h"
+
+#include <algorithm>
+
+namespace sf {
+
+RelaxedBound::RelaxedBound(const Pass& pass)
+    : pass_(pass), domains_(pass.loops), table_(pass.work), arena_(pass.work) {}
+
+uint32_t RelaxedBound::accessEdge(Shape shape) const {
+  const uint32_t m = domains_.segmentCount(shape);
+  return pass_.set.edgeBetween(domains_.spanStart(shape, m - 1), domains_.spanEnd(shape, m - 1));
+}
+
+void RelaxedBound::computeLeastPairs() {
+  const CandidateSet& set = pass_.set;
+  leastPair_.assign(set.slotTriangle.size(), kInfinity);
+  std::vector<std::pair<double, uint32_t>> around;
+  for (uint32_t e = 0; e < set.edgeCount(); ++e) {
+    around.clear();
+    for (uint32_t s = set.edgeSlots[e]; s < set.edgeSlots[e + 1]; ++s)
+      around.push_back({set.slotTheta[s], s});
+    if (around.size() < 2) continue;
+    std::sort(around.begin(), around.end());
+    // The flattest partner stands nearest to the opposite direction, on one side or the other.
+    for (const auto& [theta, slot] : around) {
+      const double opposite = theta > 0 ? theta - kPi : theta + kPi;
+      const size_t at =
+          size_t(std::lower_bound(around.begin(), around.end(), std::make_pair(opposite, 0u)) -
+                 around.begin());
+      for (size_t step = 0; step < 2; ++step) {
+        // Skips the triangle itself, which can be next only if there is nothing nearer.
+        size_t i = (at + (step == 0 ? 0 : around.size() - 1)) % around.size();
+        if (around[i].second == slot) i = (i + (step == 0 ? 1 : around.size() - 1)) % around.size();
+        leastPair_[slot] = std::min(leastPair_[slot], pass_.measure.pair(theta, around[i].first));
+      }
+    }
+  }
+}
+
+bool RelaxedBound::open(uint32_t domain) {
+  const CandidateSet& set = pass_.set;
+  // The key may not move, but the vector of entries does: views into the table stay good.
+  const Shape shape = table_.key(domain);
+  const uint32_t edge = accessEdge(shape);
+  frames_.push_back({domain, entries_.size(), entries_.size()});
+  bool good = true;
+  for (uint32_t slot = set.edgeSlots[edge]; slot < set.edgeSlots[edge + 1] && good; ++slot) {
+    const uint32_t t = set.slotTriangle[slot];
+    if (pass_.triangleCost[t] == kInfinity) continue;
+    domains_.forEachSplit(shape, set.slotApex[slot], [&](const Split& split) {
+      if (!good) return;
+      Entry entry{slot, {kNone, kNone}, {0, 0}, pass_.triangleCost[t]};
+      for (uint32_t i = 0; i < split.partCount; ++i) {
+        const SplitPart& part = split.part[i];
+        const uint32_t partSlot = set.slotOpposite(t, part.apexOpposite);
+        if (part.kind == PartKind::EmptyPair) {
+          entry.cost = pass_.measure.join(entry.cost, leastPair_[partSlot]);
+        } else if (part.kind == PartKind::Segment) {
+          const Segment s = domains_.segment(part.shape, 0);
+          const ClosedSegment closed = pass_.closedSegment(set.edgeOpposite(t, part.apexOpposite),
+                                                           s.reversed, s.start, s.end);
+          entry.cost = pass_.measure.join(entry.cost, pass_.segments.value(partSlot, closed.side));
+        }
+      }
+      // A leaf that cannot be filled spares the domains beside it.
+      if (entry.cost == kInfinity) return;
+      for (uint32_t i = 0; i < split.partCount; ++i) {
+        const SplitPart& part = split.part[i];
+        if (part.kind != PartKind::Domain) continue;
+        scratchKey_ = part.shape;
+        domains_.makeCanonical(scratchKey_);
+        entry.part[i] = table_.insert(scratchKey_);
+        if (entry.part[i] == kNone) {
+          good = false;
+          return;
+        }
+        const uint32_t partEdge = set.edgeOpposite(t, part.apexOpposite);
+        entry.index[i] = set.slotOpposite(t, part.apexOpposite) - set.edgeSlots[partEdge];
+      }
+      entries_.push_back(entry);
+    });
+  }
+  if (values_.size() < table_.size()) values_.resize(table_.size(), nullptr);
+  return good;
+}
+
+bool RelaxedBound::close(const Frame& frame) {
+  const CandidateSet& set = pass_.set;
+  const uint32_t edge = accessEdge(table_.key(frame.domain));
+  const uint32_t begin = set.edgeSlots[edge], degree = set.degree(edge);
+  auto* values = arena_.allocate<double>(degree);
+  if (!values) return false;
+  best_.assign(degree, kInfinity);
+  for (size_t i = frame.firstEntry; i < entries_.size(); ++i) {
+    const Entry& entry = entries_[i];
+    double cost = entry.cost;
+    for (int j = 0; j < 2; ++j)
+      if (entry.part[j] != kNone)
+        cost = pass_.measure.join(cost, values_[entry.part[j]][entry.index[j]]);
+    double& best = best_[entry.slot - begin];
+    best = std::min(best, cost);
+  }
+  std::fill(values, values + degree, kInfinity);
+  for (uint32_t i = 0; i < degree; ++i) {
+    if (best_[i] == kInfinity) continue;
+    const double theta = set.slotTheta[begin + i];
+    for (uint32_t j = 0; j < degree; ++j) {
+      if (i == j) continue;
+      values[j] = std::min(
+          values[j],
+          pass_.measure.join(best_[i], pass_.measure.pair(theta, set.slotTheta[begin + j])));
+    }
+  }
+  if (frame.domain == 0) rootBound_ = *std::min_element(best_.begin(), best_.end());
+  values_[frame.domain] = values;
+  entries_.resize(frame.firstEntry);
+  return true;
+}
+
+bool RelaxedBound::compute(ArrayView<const uint32_t> root) {
+  computeLeastPairs();
+  table_.insert(root);
+  if (!open(0)) return false;
+  const size_t rootEntries = entries_.size();
+  while (!frames_.empty()) {
+    Frame& frame = frames_.back();
+    // Splits of the root are the only ones whose number is known before the work is done.
+    if (frames_.size() == 1) pass_.work.setFraction(double(frame.cursor) / double(rootEntries + 1));
+    uint32_t missing = kNone;
+    while (frame.cursor < entries_.size() && missing == kNone) {
+      const Entry& entry = entries_[frame.cursor];
+      for (const uint32_t part : entry.part)
+        if (part != kNone && !values_[part]) missing = part;
+      if (missing == kNone) ++frame.cursor;
+    }
+    if (missing != kNone) {
+      if (!open(missing)) return false;
+      continue;
+    }
+    const Frame done = frame;
+    const uint32_t degree = uint32_t(entries_.size() - done.firstEntry);
+    if (!close(done)) return false;
+    frames_.pop_back();
+    if (!pass_.work.tick(200 + 200 * degree)) return false;
+  }
+  return true;
+}
+
+double RelaxedBound::value(Shape shape, uint32_t slot) const {
+  const uint32_t domain = table_.find(shape);
+  if (domain == kNone) return kInfinity;
+  return values_[domain][slot - pass_.set.edgeSlots[accessEdge(shape)]];
+}
+
+}  // namespace sf

@@ -1,0 +1,29 @@
+// The least-cost surface in a candidate set: which passes, and which algorithm for which input.
+// Source: Zou, Ju, Carr 2013, sec. 3.
+#pragma once
+#include <cstdint>
+
+#include "loops/candidate_set.h"
+#include "loops/exact_solver.h"
+#include "loops/span.h"
+
+namespace sf {
+
+struct Surface {
+  bool found = false;
+  SplitOrder order;       // its triangles, each but the first beside an earlier one
+  double lowerBound = 0;  // of the objective, proven
+  uint64_t domains = 0, minimalSets = 0;
+};
+
+/// The surface of least weighted sum, or of least largest angle and then of least sum, where angles
+/// within kAngleTie of the least possible one count as tied with it. False when the work ended.
+bool solveSurface(const LoopSet& loops, const CandidateSet& set, double dihedralWeight,
+                  Objective objective, Work& work, Surface& surface);
+
+constexpr double kAngleTie = 1e-10;
+
+/// About how many nanoseconds solving over all triples takes; infinity beyond double's range.
+double predictedTimeOfAllTriples(const LoopSet& loops);
+
+}  // namespace sf

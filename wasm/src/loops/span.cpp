@@ -1,0 +1,326 @@
+#include "loops/span.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/predicates.h"
+#include "delaunay/delaunay.h"
+#include "loops/candidate_set.h"
+#include "loops/loop_check.h"
+#include "loops/solver.h"
+
+namespace sf {
+namespace {
+
+/// Time within which `auto` takes all triples at once, in predicted nanoseconds of native code.
+constexpr double kPatience = 3e8;
+/// Nearest neighbours of the `near` space, before it is widened.
+constexpr uint32_t kFirstReach = 8, kLastReach = 64;
+
+Outcome checkOptions(const LoopSet& loops, const SpanOptions& options) {
+  const double weights[] = {options.areaWeight, options.perimeterWeight, options.dihedralWeight};
+  bool any = std::isnan(options.areaWeight);
+  for (const double w : weights) {
+    if (w < 0 || std::isinf(w)) return {Status::BadWeights};
+    any = any || w > 0;
+  }
+  if (std::isnan(options.perimeterWeight) || std::isnan(options.dihedralWeight))
+    return {Status::BadWeights};
+  for (size_t t = 0; t < options.triangleWeights.size(); ++t) {
+    if (!(std::fabs(options.triangleWeights[t]) < kInfinity))
+      return {Status::BadWeights, kNone, uint32_t(t)};
+    any = any || options.triangleWeights[t] != 0;
+  }
+  if (!any) return {Status::BadWeights};
+  for (uint32_t v = 0; 3 * size_t(v) < options.boundaryNormals.size(); ++v) {
+    const double* n = &options.boundaryNormals[3 * size_t(v)];
+    if (std::isnan(n[0]) && std::isnan(n[1]) && std::isnan(n[2])) continue;
+    const bool good = std::isfinite(n[0]) && std::isfinite(n[1]) && std::isfinite(n[2]) &&
+                      (n[0] != 0 || n[1] != 0 || n[2] != 0);
+    const uint32_t loop = loops.loopOf(v);
+    if (!good) return {Status::BadNormals, loop, v - loops.first(loop)};
+  }
+  return {};
+}
+
+/// What the solver works on: the loops, scaled to unit size and perhaps with inserted vertices,
+/// numbered loop by loop; and how that numbering leads back to the result's.
+struct Problem {
+  LoopSet loops;
+  std::vector<uint32_t> resultIndex;     // [n'] index in Span::positions
+  std::vector<double> normals;           // [3n'] or empty
+  std::vector<InsertedVertex> inserted;  // [n' - n]
+  std::vector<Vec3> insertedPositions;   // [n' - n] in the caller's units
+};
+
+Problem unchangedProblem(const LoopSet& unit, const SpanOptions& options) {
+  Problem p;
+  p.loops = unit;
+  p.resultIndex.resize(unit.vertexCount());
+  for (uint32_t v = 0; v < unit.vertexCount(); ++v) p.resultIndex[v] = v;
+  p.normals.assign(options.boundaryNormals.begin(), options.boundaryNormals.end());
+  return p;
+}
+
+/// Runs one span, space after space, until one holds a surface.
+class Spanning {
+ public:
+  Spanning(const LoopSet& loops, const SpanOptions& options, Work& work, Span& result)
+      : loops_(loops), options_(options), work_(work), result_(result) {
+    std::vector<Vec3> scaled;
+    exponent_ = scaleToUnit(loops.positions(), scaled);
+    unit_ = LoopSet(scaled, loops.starts());
+    areaWeight_ = std::isnan(options.areaWeight) ? 1e-3 / squaredDiagonal()
+                                                 : std::ldexp(options.areaWeight, 2 * exponent_);
+    perimeterWeight_ = std::ldexp(options.perimeterWeight, exponent_);
+  }
+
+  Outcome run() {
+    if (!std::isfinite(areaWeight_) || !std::isfinite(perimeterWeight_))
+      return {Status::BadWeights};
+    switch (options_.space) {
+      case Space::All:
+        return runAll();
+      case Space::Delaunay:
+        return runDelaunay();
+      case Space::Near:
+        return runNear();
+      case Space::Given:
+        return runGiven();
+      case Space::Auto:
+        break;
+    }
+    if (predictedTimeOfAllTriples(loops_) <= kPatience && allTriplesFit()) return runAll();
+    Outcome outcome = runDelaunay();
+    if (outcome.status == Status::NotFound) outcome = runNear();
+    return outcome;
+  }
+
+ private:
+  double squaredDiagonal() const {
+    Vec3 low = unit_.position(0), high = low;
+    for (const Vec3& p : unit_.positions()) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return dot(high - low, high - low);
+  }
+
+  bool allTriplesFit() const {
+    const double n = loops_.vertexCount(), count = n * (n - 1) * (n - 2) / 6;
+    return count < double(kNone / 3) && work_.fits(bytesToSolve(count));
+  }
+  /// Candidates, and the segment table's two numbers for each of three slots.
+  static double bytesToSolve(double candidates) {
+    return CandidateSet::bytesFor(candidates) + 48 * candidates;
+  }
+
+  Outcome runAll() {
+    if (!allTriplesFit()) return {Status::TooLarge};
+    std::vector<uint32_t> triples;
+    if (!allTriples(unit_, work_, triples)) return {work_.status()};
+    return solve(unchangedProblem(unit_, options_), std::move(triples), {}, Space::All);
+  }
+
+  Outcome runGiven() {
+    std::vector<uint32_t> triples, order;
+    const Outcome outcome = givenTriples(unit_, options_.triangles, work_, triples, order);
+    if (!outcome.ok()) return outcome;
+    std::vector<double> own;
+    if (!options_.triangleWeights.empty())
+      for (const uint32_t index : order) own.push_back(options_.triangleWeights[index]);
+    return solve(unchangedProblem(unit_, options_), std::move(triples), own, Space::Given);
+  }
+
+  Outcome runDelaunay() {
+    Delaunay cells;
+    const Status status = delaunay(unit_.positions(), work_, cells);
+    if (status != Status::Ok) return {status};
+    std::vector<uint32_t> triples;
+    if (!facetTriples(unit_, cells.facets, work_, triples)) return {work_.status()};
+    return solve(unchangedProblem(unit_, options_), std::move(triples), {}, Space::Delaunay);
+  }
+
+  Outcome runNear() {
+    Delaunay cells;
+    const Status status = delaunay(unit_.positions(), work_, cells);
+    if (status != Status::Ok) return {status};
+    for (uint32_t reach = kFirstReach; reach <= kLastReach; reach *= 2) {
+      std::vector<uint32_t> triples;
+      if (!nearTriples(unit_, cells.facets, reach, work_, triples)) return {work_.status()};
+      const Outcome outcome =
+          solve(unchangedProblem(unit_, options_), std::move(triples), {}, Space::Near);
+      if (outcome.status != Status::NotFound || reach >= loops_.vertexCount()) return outcome;
+    }
+    return options_.space == Space::Auto && allTriplesFit() ? runAll() : Outcome{Status::NotFound};
+  }
+
+  Outcome solve(const Problem& problem, std::vector<uint32_t> triples,
+                const std::vector<double>& own, Space space) {
+    result_.space = space;
+    result_.candidates = triples.size() / 3;
+    const double bytes = bytesToSolve(double(result_.candidates));
+    if (!work_.fits(bytes)) return {Status::TooLarge};
+    TriangleWeights weights;
+    weights.area = areaWeight_;
+    weights.perimeter = perimeterWeight_;
+    weights.dihedral = options_.dihedralWeight;
+    weights.normals = problem.normals;
+    weights.own = own;
+    CandidateSet set;
+    Surface surface;
+    const size_t before = work_.used();
+    const bool done = buildCandidateSet(problem.loops, weights, std::move(triples), work_, set) &&
+                      solveSurface(problem.loops, set, options_.dihedralWeight, options_.objective,
+                                   work_, surface);
+    work_.release(work_.used() - before);
+    result_.domains += surface.domains;
+    result_.minimalSets += surface.minimalSets;
+    if (!done) return {work_.status()};
+    if (!surface.found) return {Status::NotFound};
+    handBack(problem, set, surface, own);
+    return {};
+  }
+
+  void handBack(const Problem& problem, const CandidateSet& set, const Surface& surface,
+                const std::vector<double>& own);
+  void measure(const Problem& problem, const CandidateSet& set,
+               const std::vector<uint32_t>& triangles, const std::vector<double>& own);
+
+  const LoopSet& loops_;
+  const SpanOptions& options_;
+  Work& work_;
+  Span& result_;
+  LoopSet unit_;  // loops_ divided by 2^exponent_
+  int exponent_ = 0;
+  double areaWeight_ = 0, perimeterWeight_ = 0;  // per unit of unit_
+};
+
+/// Turns the triangles so that neighbours agree and the first triangle with an edge of the first
+/// loop passes it forward.
+///   triangles  [m] numbers in the set;  wound  [3m] the result
+void windConsistently(const LoopSet& loops, const CandidateSet& set,
+                      const std::vector<uint32_t>& triangles, std::vector<uint32_t>& wound) {
+  struct Use {
+    uint32_t edge, triangle;
+  };
+  std::vector<Use> uses;
+  for (uint32_t i = 0; i < triangles.size(); ++i)
+    for (int j = 0; j < 3; ++j)
+      uses.push_back({set.triangleEdges[3 * size_t(triangles[i]) + j], i});
+  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
+    return a.edge < b.edge || (a.edge == b.edge && a.triangle < b.triangle);
+  });
+  // The sign with which an increasing triple passes its edge from the lower to the higher end.
+  auto passesForward = [&](uint32_t t, uint32_t edge) {
+    return set.triangleEdges[3 * size_t(t) + 1] != edge;
+  };
+  auto usesOf = [&](uint32_t edge) {
+    return std::lower_bound(uses.begin(), uses.end(), edge,
+                            [](const Use& u, uint32_t e) { return u.edge < e; });
+  };
+  const uint32_t first = usesOf(set.loopEdges[0])->triangle;
+  const bool lowToHigh = set.edgeVertices[2 * size_t(set.loopEdges[0])] == 0 && loops.next(0) != 0;
+  enum : uint8_t { Unseen, Kept, Flipped };
+  std::vector<uint8_t> state(triangles.size(), Unseen);
+  state[first] = passesForward(triangles[first], set.loopEdges[0]) == lowToHigh ? Kept : Flipped;
+  std::vector<uint32_t> queue{first};
+  for (size_t i = 0; i < queue.size(); ++i) {
+    const uint32_t at = queue[i];
+    for (int j = 0; j < 3; ++j) {
+      const uint32_t edge = set.triangleEdges[3 * size_t(triangles[at]) + j];
+      for (auto u = usesOf(edge); u != uses.end() && u->edge == edge; ++u) {
+        if (state[u->triangle] != Unseen) continue;
+        const bool same =
+            passesForward(triangles[at], edge) == passesForward(triangles[u->triangle], edge);
+        state[u->triangle] = same == (state[at] == Kept) ? Flipped : Kept;
+        queue.push_back(u->triangle);
+      }
+    }
+  }
+  SF_ASSERT(queue.size() == triangles.size());
+  wound.clear();
+  for (uint32_t i = 0; i < triangles.size(); ++i) {
+    const uint32_t* v = &set.triangles[3 * size_t(triangles[i])];
+    const bool flip = state[i] == Flipped;
+    wound.insert(wound.end(), {v[0], v[flip ? 2 : 1], v[flip ? 1 : 2]});
+  }
+}
+
+void Spanning::measure(const Problem& problem, const CandidateSet& set,
+                       const std::vector<uint32_t>& triangles, const std::vector<double>& own) {
+  const LoopSet& loops = problem.loops;
+  SpanTerms& terms = result_.terms;
+  terms = {};
+  std::vector<uint32_t> slots;
+  for (const uint32_t t : triangles) {
+    const uint32_t* v = &set.triangles[3 * size_t(t)];
+    const Vec3 p[3] = {loops.position(v[0]), loops.position(v[1]), loops.position(v[2])};
+    terms.area += 0.5 * length(cross(p[1] - p[0], p[2] - p[0]));
+    terms.perimeter += distance(p[0], p[1]) + distance(p[1], p[2]) + distance(p[2], p[0]);
+    if (!own.empty()) terms.own += own[t];
+    slots.insert(slots.end(), &set.triangleSlots[3 * size_t(t)],
+                 &set.triangleSlots[3 * size_t(t)] + 3);
+    for (int i = 0; i < 3; ++i) {
+      double angle;
+      if (!faceAngle(loops, problem.normals, v[i], v[(i + 1) % 3], v[(i + 2) % 3], angle)) continue;
+      terms.dihedral += angle;
+      terms.worstDihedral = std::max(terms.worstDihedral, angle);
+    }
+  }
+  // Slots of one edge are consecutive, so that the two triangles at an inner edge come together.
+  std::sort(slots.begin(), slots.end());
+  auto edgeOf = [&](uint32_t slot) {
+    return set.edgeOpposite(set.slotTriangle[slot], set.slotApex[slot]);
+  };
+  for (size_t i = 0; i + 1 < slots.size(); ++i) {
+    if (edgeOf(slots[i]) != edgeOf(slots[i + 1])) continue;
+    const double angle = dihedralAngle(set.slotTheta[slots[i]], set.slotTheta[slots[i + 1]]);
+    terms.dihedral += angle;
+    terms.worstDihedral = std::max(terms.worstDihedral, angle);
+  }
+  result_.cost = options_.objective == Objective::WorstDihedral
+                     ? terms.worstDihedral
+                     : areaWeight_ * terms.area + perimeterWeight_ * terms.perimeter +
+                           options_.dihedralWeight * terms.dihedral + terms.own;
+  terms.area = std::ldexp(terms.area, 2 * exponent_);
+  terms.perimeter = std::ldexp(terms.perimeter, exponent_);
+}
+
+void Spanning::handBack(const Problem& problem, const CandidateSet& set, const Surface& surface,
+                        const std::vector<double>& own) {
+  std::vector<uint32_t> triangles = surface.order;
+  std::sort(triangles.begin(), triangles.end());
+  result_.found = true;
+  result_.optimal = true;
+  windConsistently(problem.loops, set, triangles, result_.triangles);
+  for (uint32_t& v : result_.triangles) v = problem.resultIndex[v];
+  result_.order.clear();
+  for (const uint32_t t : surface.order)
+    result_.order.push_back(
+        uint32_t(std::lower_bound(triangles.begin(), triangles.end(), t) - triangles.begin()));
+  result_.positions.assign(loops_.positions().begin(), loops_.positions().end());
+  result_.positions.insert(result_.positions.end(), problem.insertedPositions.begin(),
+                           problem.insertedPositions.end());
+  result_.inserted = problem.inserted;
+  result_.starts.assign(problem.loops.starts().begin(), problem.loops.starts().end());
+  result_.loopVertices = problem.resultIndex;
+  measure(problem, set, triangles, own);
+  // Sums in another order differ in the last digits; the bound may not exceed the cost for that.
+  result_.lowerBound = options_.objective == Objective::Sum
+                           ? result_.cost
+                           : std::min(result_.cost, surface.lowerBound);
+}
+
+}  // namespace
+
+Outcome spanLoops(const LoopSet& loops, const SpanOptions& options, Work& work, Span& result) {
+  result = {};
+  Outcome outcome = checkLoops(loops, true, work);
+  if (outcome.ok()) outcome = checkOptions(loops, options);
+  if (outcome.ok()) outcome = Spanning(loops, options, work, result).run();
+  if (outcome.status == Status::NotFound) return {};
+  return outcome;
+}
+
+}  // namespace sf

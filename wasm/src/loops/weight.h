@@ -1,0 +1,55 @@
+// Weights of triangles and of pairs of triangles, and how they add up to the cost of a surface.
+// Source: Zou, Ju, Carr 2013, sec. 3.1, eqs. 1 and 2.
+// Differs: next to the paper's sum there is the largest dihedral angle, smallest possible. It is
+// found in two passes, because the least sum among the surfaces of least worst angle has no
+// optimal substructure: first the worst angle alone (maxima in place of sums), then the sum over
+// the surfaces none of whose angles exceed it.
+#pragma once
+#include <cmath>
+#include <limits>
+
+namespace sf {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Dihedral angle (0 flat, pi folded) of two triangles that stand around their common edge at the
+/// angles thetaA and thetaB, each in [-pi, pi]. Equals the angle between their consistently
+/// oriented normals.
+inline double dihedralAngle(double thetaA, double thetaB) {
+  return std::fabs(kPi - std::fabs(thetaA - thetaB));
+}
+
+/// What one pass of the solver minimises: a sum, or a maximum of angles.
+class Measure {
+ public:
+  /// Sum of weights, dihedral angles times `dihedralWeight`; angles above `cap` are forbidden.
+  static Measure sum(double dihedralWeight, double cap = kInfinity) {
+    return {false, dihedralWeight, cap};
+  }
+  /// The largest dihedral angle.
+  static Measure worst() { return {true, 1, kInfinity}; }
+
+  bool isWorst() const { return worst_; }
+  double cap() const { return cap_; }
+  double join(double a, double b) const { return worst_ ? (a < b ? b : a) : a + b; }
+  /// Bi-triangle weight w(t, t') of eq. 2.
+  double pair(double thetaA, double thetaB) const {
+    const double angle = dihedralAngle(thetaA, thetaB);
+    return angle <= cap_ ? dihedralWeight_ * angle : kInfinity;
+  }
+  /// Whether `value` improves on `best` by more than the rounding of sums in different orders.
+  /// Without this slack tied surfaces, as on flat input, would all be explored one by one.
+  bool improves(double value, double best) const {
+    return worst_ ? value < best : value < best - 1e-13 * std::fabs(best) || best == kInfinity;
+  }
+
+ private:
+  Measure(bool worst, double dihedralWeight, double cap)
+      : worst_(worst), dihedralWeight_(dihedralWeight), cap_(cap) {}
+  bool worst_;
+  double dihedralWeight_;
+  double cap_;
+};
+
+}  // namespace sf
