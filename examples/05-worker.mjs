@@ -1,7 +1,7 @@
 // Off the main thread: progress, cancelling, and two solves at once.
 import { createWorker } from 'soapfilm/worker';
 
-const film = await createWorker();
+const film = await createWorker({ size: 2 });
 
 const wave = (radius, z, count) =>
   Array.from({ length: count }, (_, i) => {

@@ -2,7 +2,7 @@
 //   core     wasm/src → core.wasm
 //   library  core, and wasm/ts → the package in wasm/dist
 //   page     library, and web → the static page in web/dist
-import { readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { Failure, buildRoot, jobs, main, root, run, runTool, say } from './run.mjs';
@@ -13,13 +13,28 @@ const dist = path.join(root, 'wasm/dist');
 const scripts = ['wasm/scripts/build.mjs'];
 const packages = ['package.json', 'package-lock.json'];
 
-/** Configures and builds a CMake preset. */
+/**
+ * Configures and builds a CMake preset, shown only if it fails; anew where the build tree is from
+ * another place or another compiler.
+ */
 export async function buildPreset(preset, { launcher = [], env = {} } = {}) {
   const cwd = path.join(root, 'wasm');
+  const tree = path.join(buildRoot, preset);
+  const origin = path.join(tree, 'origin');
+  const here = JSON.stringify([cwd, launcher, process.env.CXX]);
+  if (!existsSync(origin) || readFileSync(origin, 'utf8') !== here) {
+    rmSync(tree, { recursive: true, force: true });
+    mkdirSync(tree, { recursive: true });
+    writeFileSync(origin, here);
+  }
+  const options = { cwd, env, capture: true, allowFailure: true };
   const configure = [...launcher, 'cmake', '--preset', preset];
-  const options = { cwd, env, capture: true };
-  await run(configure[0], configure.slice(1), options);
-  await run('cmake', ['--build', '--preset', preset, '-j', String(jobs)], options);
+  const steps = [configure, ['cmake', '--build', '--preset', preset, '-j', String(jobs)]];
+  for (const [program, ...args] of steps) {
+    const { code, output } = await run(program, args, options);
+    const told = output.split('\n').filter((line) => !/^\[\d+\/\d+\]/.test(line));
+    if (code !== 0) throw new Failure(`${told.join('\n')}\nThe preset ${preset} does not build.`);
+  }
 }
 
 export async function buildCore() {
@@ -31,7 +46,8 @@ export async function buildCore() {
   };
   await unlessUpToDate('core.wasm', step, async () => {
     const env = emscriptenEnvironment(paths.emcc);
-    const launcher = [path.join(path.dirname(paths.emcc), 'emcmake')];
+    const beside = path.join(path.dirname(paths.emcc), 'emcmake');
+    const launcher = [existsSync(beside) ? beside : 'emcmake'];
     await buildPreset('emscripten', { launcher, env });
     const built = path.join(buildRoot, 'emscripten/core.wasm');
     writeIfChanged(path.join(dist, 'core.wasm'), readFileSync(built));

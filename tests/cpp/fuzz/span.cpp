@@ -1,0 +1,143 @@
+// Fuzzes sf_span_loops through the C ABI: small, degenerate and malformed input of every kind.
+// Whatever comes back has to be a status or a surface with the right numbers of everything.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "soapfilm.h"
+
+namespace {
+
+constexpr double kSecondsPerInput = 0.5;
+std::chrono::steady_clock::time_point inputBegan;
+
+/// Takes decisions from the fuzzer's bytes; zeros once they are used up.
+class Bytes {
+ public:
+  Bytes(const uint8_t* data, size_t size) : data_(data), size_(size) {}
+  uint8_t byte() {
+    if (size_ == 0) return 0;
+    --size_;
+    return *data_++;
+  }
+  uint32_t below(uint32_t count) { return byte() % count; }
+  double raw() {
+    uint8_t bytes[8];
+    for (uint8_t& b : bytes) b = byte();
+    double value;
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+  }
+  /// Mostly a small grid, where coincidences are common; now and then any double at all.
+  double coordinate() {
+    uint8_t b = byte();
+    if (b == 255) return raw();
+    if (b >= 240) return (b - 247) * 1e-9;
+    return double(b % 16) - 7;
+  }
+  double weight() {
+    static const double kWeights[] = {0, 1, 1, 0.25, 1e-3, 1e12, -1, NAN, INFINITY};
+    return kWeights[below(9)];
+  }
+
+ private:
+  const uint8_t* data_;
+  size_t size_;
+};
+
+void require(bool condition, const char* what) {
+  if (condition) return;
+  std::fprintf(stderr, "broken promise: %s\n", what);
+  std::abort();
+}
+
+template <class T>
+const T* array(const SfResult* result, uint32_t index, size_t& length) {
+  length = sf_result_length(result, index);
+  return static_cast<const T*>(sf_result_data(result, index));
+}
+
+/// Counts, index ranges, and the valence of every edge of a surface that was handed back.
+void checkSurface(const SfResult* result, uint32_t loopCount) {
+  size_t coordinates, indices, orders, startCount, loopLength;
+  array<double>(result, 0, coordinates);
+  const uint32_t* triangles = array<uint32_t>(result, 1, indices);
+  array<uint32_t>(result, 2, orders);
+  const uint32_t* starts = array<uint32_t>(result, 3, startCount);
+  const uint32_t* loops = array<uint32_t>(result, 4, loopLength);
+  const size_t n = coordinates / 3;
+  require(coordinates % 3 == 0 && indices % 3 == 0, "whole points and triangles");
+  require(indices / 3 == n + 2 * loopCount - 4, "n + 2k - 4 triangles");
+  require(orders == indices / 3, "an order of all triangles");
+  require(startCount == loopCount + 1 && loopLength == n, "loops over all vertices");
+  std::map<std::pair<uint32_t, uint32_t>, int> directed;
+  for (size_t t = 0; t < indices; t += 3)
+    for (size_t i = 0; i < 3; ++i) {
+      uint32_t a = triangles[t + i], b = triangles[t + (i + 1) % 3];
+      require(a < n && a != b, "triangles of three vertices");
+      require(++directed[{a, b}] == 1, "no half-edge twice");
+    }
+  size_t boundary = 0;
+  for (const auto& [edge, count] : directed)
+    if (directed.count({edge.second, edge.first}) == 0) ++boundary;
+  require(boundary == n, "as many boundary edges as vertices");
+  for (uint32_t c = 0; c < loopCount; ++c)
+    for (uint32_t i = starts[c]; i < starts[c + 1]; ++i) {
+      uint32_t a = loops[i], b = loops[i + 1 == starts[c + 1] ? starts[c] : i + 1];
+      require(directed.count({a, b}) + directed.count({b, a}) == 1, "loop edges on the boundary");
+    }
+}
+
+}  // namespace
+
+extern "C" int32_t sf_host_progress(double, double, double) {
+  std::chrono::duration<double> spent = std::chrono::steady_clock::now() - inputBegan;
+  return spent.count() < kSecondsPerInput;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  Bytes in(data, size);
+  const uint32_t loopCount = in.below(6);
+  std::vector<uint32_t> starts{in.below(64) == 63 ? 1u : 0u};
+  for (uint32_t c = 0; c < loopCount; ++c) starts.push_back(starts.back() + in.below(10));
+  const uint32_t n = *std::max_element(starts.begin(), starts.end());
+  // `starts` may fall: an offset past the end would be the caller's lie about the array's length.
+  if (in.below(32) == 31 && loopCount > 1) std::swap(starts[1], starts[loopCount]);
+
+  const bool hasNormals = in.below(4) == 0;
+  const uint32_t space = in.below(6);
+  double settings[7] = {in.weight(),   in.weight(), in.weight(),        double(in.below(3)),
+                        double(space), 16e6,        double(in.below(2))};
+  if (in.below(64) == 63) settings[3 + in.below(4)] = in.raw();
+  const uint32_t triangleCount = space == 4 ? in.below(40) : 0;
+  const bool hasTriangleWeights = in.below(2) == 0;
+
+  std::vector<double> positions(3 * size_t(n)), normals, triangleWeights;
+  for (double& x : positions) x = in.coordinate();
+  if (hasNormals)
+    for (uint32_t i = 0; i < 3 * n; ++i) normals.push_back(in.below(5) ? in.coordinate() : NAN);
+  std::vector<uint32_t> triangles(3 * size_t(triangleCount));
+  for (uint32_t& v : triangles) v = in.below(n + 1);
+  for (uint32_t i = 0; i < triangleCount; ++i) triangleWeights.push_back(in.weight());
+
+  inputBegan = std::chrono::steady_clock::now();
+  uint32_t where[4];
+  SfResult* result = nullptr;
+  const SfStatus status = sf_span_loops(
+      positions.data(), starts.data(), loopCount, hasNormals ? normals.data() : nullptr,
+      space == 4 ? triangles.data() : nullptr, triangleCount,
+      hasTriangleWeights && space == 4 ? triangleWeights.data() : nullptr, settings, where,
+      &result);
+  require((status <= 1) == (result != nullptr), "a result exactly for status 0 and 1");
+  require(status >= 0 && status <= 14, "a status of the list");
+  if (status == 0) checkSurface(result, loopCount);
+  if (result) sf_result_free(result);
+  return 0;
+}
