@@ -41,9 +41,9 @@ SF_API(sf_result_free) void sf_result_free(SfResult* result);
 ///   boundaryNormals  [3 * n] or null: unit or not, NaN triple for no face
 ///   triangles        [3 * triangleCount] candidates for space 4, else null
 ///   triangleWeights  [triangleCount] or null
-///   settings         [7] area, perimeter, dihedral weight; objective (0 sum, 1 worst-dihedral);
-///                    space (0 auto, 1 all, 2 Delaunay, 3 near, 4 given); memory limit in bytes;
-///                    1 to check that no two loop edges meet, 0 to leave that out
+///   settings         [6] weights of area (NaN: 1e-3 / squared bounding-box diagonal), perimeter,
+///                    dihedral; objective (0 sum, 1 worst-dihedral);
+///                    space (0 auto, 1 all, 2 Delaunay, 3 near, 4 given); memory limit in bytes
 ///   where            [4] out: loop, vertex, other loop, other vertex at fault, or 0xFFFFFFFF
 ///   result           out: arrays
 ///       0 double   [3n'] positions        5 double   [14] found, space, cost, lower bound, optimal,

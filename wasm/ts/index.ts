@@ -1,4 +1,5 @@
 export { load } from './load.js';
+export { spanLoops } from './loops.js';
 export { SoapfilmError } from './errors.js';
 export { formatLoops, formatObj, parseLoops, type LoopFile, type LoopFormat } from './formats.js';
 export type * from './errors.js';

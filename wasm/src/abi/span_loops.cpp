@@ -1,0 +1,96 @@
+// sf_span_loops: validates what has no meaning to the core, calls it, hands back.
+#include <cmath>
+
+#include "abi/result.h"
+#include "base/work.h"
+#include "loops/span.h"
+
+namespace {
+
+static_assert(sizeof(sf::Vec3) == 3 * sizeof(double), "positions are read as Vec3");
+
+bool reportToHost(void*, double fraction, double bestCost, double lowerBound) {
+  return sf_host_progress(fraction, bestCost, lowerBound) != 0;
+}
+
+/// Whether `value` is one of 0, 1, ..., last.
+bool isChoice(double value, int last) {
+  return value >= 0 && value <= last && value == std::floor(value);
+}
+
+sf::Outcome checkStarts(const uint32_t* starts, uint32_t loopCount) {
+  if (loopCount == 0) return {sf::Status::NoLoops};
+  if (starts[0] != 0) return {sf::Status::BadStarts, 0};
+  for (uint32_t c = 0; c < loopCount; ++c)
+    if (starts[c + 1] < starts[c]) return {sf::Status::BadStarts, c};
+  // Vertex numbers share words with flags (loops/domain.h).
+  if (starts[loopCount] >= 1u << 30) return {sf::Status::TooLarge};
+  return {};
+}
+
+SfResult* pack(sf::Span&& span, size_t peakBytes) {
+  auto* result = new SfResult;
+  std::vector<double> numbers{
+      double(span.found),       double(span.space),      span.cost,
+      span.lowerBound,          double(span.optimal),    span.terms.area,
+      span.terms.perimeter,     span.terms.dihedral,     span.terms.worstDihedral,
+      span.terms.own,           double(span.candidates), double(span.domains),
+      double(span.minimalSets), double(peakBytes)};
+  std::vector<uint32_t> insertedPlaces;
+  std::vector<double> insertedParameters;
+  for (const sf::InsertedVertex& v : span.inserted) {
+    insertedPlaces.push_back(v.loop);
+    insertedPlaces.push_back(v.edge);
+    insertedParameters.push_back(v.parameter);
+  }
+  result->add(std::move(span.positions), 3);
+  result->add(std::move(span.triangles));
+  result->add(std::move(span.order));
+  result->add(std::move(span.starts));
+  result->add(std::move(span.loopVertices));
+  result->add(std::move(numbers));
+  result->add(std::move(insertedPlaces));
+  result->add(std::move(insertedParameters));
+  return result;
+}
+
+}  // namespace
+
+extern "C" SfStatus sf_span_loops(const double* positions, const uint32_t* starts,
+                                  uint32_t loopCount, const double* boundaryNormals,
+                                  const uint32_t* triangles, uint32_t triangleCount,
+                                  const double* triangleWeights, const double* settings,
+                                  uint32_t* where, SfResult** result) {
+  *result = nullptr;
+  sf::Outcome outcome = checkStarts(starts, loopCount);
+  const double maxBytes = settings[5];
+  if (outcome.ok() && (!isChoice(settings[3], 1) || !isChoice(settings[4], 4) || !(maxBytes >= 0)))
+    outcome = {sf::Status::BadOption};
+  if (outcome.ok()) {
+    const size_t n = starts[loopCount];
+    sf::SpanOptions options;
+    options.areaWeight = settings[0];
+    options.perimeterWeight = settings[1];
+    options.dihedralWeight = settings[2];
+    options.objective = sf::Objective(int(settings[3]));
+    options.space = sf::Space(int(settings[4]));
+    if (boundaryNormals) options.boundaryNormals = {boundaryNormals, 3 * n};
+    if (triangles) options.triangles = {triangles, 3 * size_t(triangleCount)};
+    if (triangleWeights) options.triangleWeights = {triangleWeights, triangleCount};
+    const double most = double(size_t(-1));
+    sf::Work work(maxBytes < most ? size_t(maxBytes) : size_t(-1), reportToHost, nullptr);
+    const sf::LoopSet loops({reinterpret_cast<const sf::Vec3*>(positions), n},
+                            {starts, size_t(loopCount) + 1});
+    sf::Span span;
+    outcome = sf::spanLoops(loops, options, work, span);
+    if (outcome.ok()) {
+      if (!span.found) outcome.status = sf::Status::NotFound;
+      *result = pack(std::move(span), work.peak());
+    }
+  }
+  where[0] = outcome.loop;
+  where[1] = outcome.vertex;
+  where[2] = outcome.otherLoop;
+  where[3] = outcome.otherVertex;
+  return SfStatus(outcome.status);
+}

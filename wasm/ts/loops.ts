@@ -1,0 +1,190 @@
+// spanLoops: options checked and turned into the core's settings, the core's arrays into a Span.
+import { SoapfilmError } from './errors.js';
+import { toLoopSet } from './loopset.js';
+import { callCore } from './runtime.js';
+import type {
+  CandidateList,
+  LoopSet,
+  LoopsLike,
+  NoSpan,
+  Span,
+  SpanOptions,
+  SpanStats,
+  SpaceUsed,
+  Weights,
+} from './types.js';
+
+// The orders of the enums Space and Objective in src/loops/span.h.
+const kSpaces = ['auto', 'all', 'delaunay', 'near', 'given'] as const;
+const kObjectives = ['sum', 'worst-dihedral'] as const;
+
+/** What the solver may use unless told otherwise; WebAssembly memory ends at 4 GiB. */
+const kDefaultMemoryBytes = 3 * 2 ** 30;
+
+/**
+ * Spans one or more closed 3D loops with a triangulated surface of least cost: of all surfaces made
+ * of candidate triangles that are manifold, connected, orientable, and have the topology of a
+ * sphere with k holes (Zou, Ju, Carr 2013). Synchronous; the worker of `soapfilm/worker` offers
+ * the same without blocking.
+ *
+ * @param loops flat arrays, or one array of points a loop; directions carry no meaning
+ * @returns the surface, m = n' + 2k - 4 triangles; `found: false` where the candidate space holds
+ *   none, which is an ordinary outcome for Delaunay candidates of contorted loops
+ * @throws SoapfilmError `not-loaded`; `no-loops`, `bad-loops`, `bad-starts`, `not-finite`,
+ *   `too-few-vertices`, `repeated-vertex`, `loops-intersect` with the loop and vertex at fault;
+ *   `bad-weights`, `bad-normals`, `bad-candidates`, `bad-option`; `too-large`, `out-of-memory`,
+ *   `time-limit`; `crashed`. The next call works after any of them.
+ */
+export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | NoSpan {
+  const input = toLoopSet(loops);
+  const { onProgress, maxSeconds } = options;
+  checkLimits(options);
+  const list = typeof options.candidates === 'object' ? checkList(options.candidates) : undefined;
+  const started = performance.now();
+  const { found, arrays } = callCore(
+    'sf_span_loops',
+    [
+      input.positions,
+      input.starts,
+      input.starts.length - 1,
+      checkNormals(options.boundaryNormals, input),
+      list?.triangles ?? null,
+      list ? list.triangles.length / 3 : 0,
+      list?.weights ?? null,
+      settings(options),
+    ],
+    [
+      Float64Array,
+      Uint32Array,
+      Uint32Array,
+      Uint32Array,
+      Uint32Array,
+      Float64Array,
+      Uint32Array,
+      Float64Array,
+    ],
+    { onProgress, maxSeconds },
+  );
+  const [positions, triangles, order, starts, loopVertices, numbers, places, parameters] = arrays;
+  const seconds = (performance.now() - started) / 1000;
+  const [
+    ,
+    space,
+    cost,
+    lowerBound,
+    optimal,
+    area,
+    perimeter,
+    dihedral,
+    worstDihedral,
+    ,
+    candidates,
+    domains,
+    minimalSets,
+    peakBytes,
+  ] = numbers;
+  const stats: SpanStats = { candidates, domains, minimalSets, seconds, peakBytes };
+  const used = kSpaces[space] as SpaceUsed;
+  if (!found) return { found, reason: noSpanReason(used), candidates: used, stats };
+  return {
+    found,
+    positions,
+    triangles,
+    starts,
+    loopVertices,
+    inserted: Array.from(parameters, (parameter, i) => ({
+      loop: places[2 * i],
+      edge: places[2 * i + 1],
+      parameter,
+    })),
+    cost,
+    terms: { area, perimeter, dihedral, worstDihedral },
+    lowerBound,
+    optimal: optimal !== 0,
+    candidates: used,
+    order,
+    stats,
+  };
+}
+
+function noSpanReason(space: SpaceUsed): string {
+  const wider: Record<SpaceUsed, string> = {
+    all: 'No manifold surface spans these loops, whichever triangles it uses',
+    delaunay: "The Delaunay facets hold no manifold surface; 'near' or 'all' may hold one",
+    near: "Triangles between near vertices hold no manifold surface; 'all' may hold one",
+    given: 'The given candidates hold no manifold surface',
+  };
+  return wider[space];
+}
+
+function settings({ weights, objective = 'sum', candidates, maxMemoryBytes }: SpanOptions) {
+  const space = typeof candidates === 'object' ? 'given' : (candidates ?? 'auto');
+  const spaceIndex = kSpaces.indexOf(space);
+  const objectiveIndex = kObjectives.indexOf(objective);
+  if (objectiveIndex < 0) throw badOption('objective', kObjectives);
+  if (spaceIndex < 0 || candidates === ('given' as string)) {
+    throw badOption('candidates', kSpaces.slice(0, 4), ', or { triangles }');
+  }
+  // NaN: the core sets the default from the size of the loops.
+  const { area = 0, perimeter = 0, dihedral = 0 } = weights ?? { area: NaN, dihedral: 1 };
+  if (weights) checkWeights({ area, perimeter, dihedral });
+  return new Float64Array([
+    area,
+    perimeter,
+    dihedral,
+    objectiveIndex,
+    spaceIndex,
+    maxMemoryBytes ?? kDefaultMemoryBytes,
+  ]);
+}
+
+function badOption(name: string, choices: readonly string[], more = ''): SoapfilmError {
+  const list = choices.map((choice) => `'${choice}'`).join(', ');
+  return new SoapfilmError('bad-option', `\`${name}\` must be one of ${list}${more}`);
+}
+
+function checkWeights(weights: Required<Weights>): void {
+  for (const [name, value] of Object.entries(weights)) {
+    if (!Number.isFinite(value) || value < 0) {
+      throw new SoapfilmError(
+        'bad-weights',
+        `The weight of \`${name}\` must be a finite number and not negative, not ${String(value)}`,
+      );
+    }
+  }
+}
+
+function checkLimits({ maxMemoryBytes, maxSeconds, onProgress }: SpanOptions): void {
+  for (const [name, value] of Object.entries({ maxMemoryBytes, maxSeconds })) {
+    if (value === undefined || (typeof value === 'number' && value >= 0)) continue;
+    throw new SoapfilmError('bad-option', `\`${name}\` must be a number and not negative`);
+  }
+  if (onProgress !== undefined && typeof onProgress !== 'function') {
+    throw new SoapfilmError('bad-option', '`onProgress` must be a function');
+  }
+}
+
+function checkList(list: CandidateList | null): CandidateList {
+  const bad = (message: string) => new SoapfilmError('bad-candidates', message);
+  const { triangles, weights } = list ?? {};
+  if (!(triangles instanceof Uint32Array) || triangles.length % 3 !== 0) {
+    throw bad('`candidates.triangles` must be a Uint32Array of three indices for each triangle');
+  }
+  if (weights === undefined) return { triangles };
+  if (!(weights instanceof Float64Array) || 3 * weights.length !== triangles.length) {
+    throw bad('`candidates.weights` must be a Float64Array of one number for each triangle');
+  }
+  return { triangles, weights };
+}
+
+function checkNormals(normals: Float64Array | undefined, input: LoopSet): Float64Array | null {
+  if (normals === undefined) return null;
+  if (!(normals instanceof Float64Array) || normals.length !== input.positions.length) {
+    throw new SoapfilmError(
+      'bad-normals',
+      `\`boundaryNormals\` must be a Float64Array of ${input.positions.length} numbers, ` +
+        'three for each vertex',
+    );
+  }
+  return normals;
+}
