@@ -17,8 +17,8 @@ class ArrayView {
   ArrayView(std::vector<std::remove_const_t<T>>& v) : data_(v.data()), size_(v.size()) {}
   template <class U = T, class = std::enable_if_t<std::is_const_v<U>>>
   ArrayView(const std::vector<std::remove_const_t<T>>& v) : data_(v.data()), size_(v.size()) {}
-  template <class U = T, class = std::enable_if_t<std::is_const_v<U>>>
-  ArrayView(ArrayView<std::remove_const_t<T>> v) : data_(v.data()), size_(v.size()) {}
+  template <class U, class = std::enable_if_t<std::is_same_v<const U, T>>>
+  ArrayView(ArrayView<U> v) : data_(v.data()), size_(v.size()) {}
 
   T* data() const { return data_; }
   size_t size() const { return size_; }
