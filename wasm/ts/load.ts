@@ -1,6 +1,6 @@
 // Where core.wasm comes from: sources, compilation, and the copy inside the library's own scripts.
 import { SoapfilmError } from './errors.js';
-import { host } from './host.js';
+import { readFrom } from './host.js';
 import { compiledModule, startCore } from './runtime.js';
 import type { LoadOptions } from './types.js';
 
@@ -42,13 +42,13 @@ async function compileFrom(source: LoadOptions['wasm']): Promise<WebAssembly.Mod
   if (source === undefined) return compileDefault();
   if (source instanceof WebAssembly.Module) return source;
   const isPlace = typeof source === 'string' || source instanceof URL;
-  return compileBytes(isPlace ? await host().read(source) : source);
+  return compileBytes(isPlace ? await readFrom(source) : source);
 }
 
 /** core.wasm beside this script, else (a bundler lost it, or nothing is served) the inline copy. */
 async function compileDefault(): Promise<WebAssembly.Module> {
   try {
-    return await compileBytes(await host().read(new URL('./core.wasm', import.meta.url)));
+    return await compileBytes(await readFrom(new URL('./core.wasm', import.meta.url)));
   } catch (cause) {
     const { default: base64 } = await import('./core_inline.js').catch(() => {
       throw cause;

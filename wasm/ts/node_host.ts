@@ -1,43 +1,46 @@
-// Node's files and threads; the one file that imports from `node:`.
+// Node's files and threads.
 import { readFile } from 'node:fs/promises';
 import { Worker } from 'node:worker_threads';
-import { setHost } from './host.js';
+import { setReader } from './host.js';
+import { setThreadStarter } from './thread.js';
 
-setHost({
-  read(source) {
-    const url = source instanceof URL || /^[a-z][a-z\d+.-]+:/i.test(source) ? new URL(source) : null;
-    return url && url.protocol !== 'file:' ? fetch(url) : readFile(url ?? source);
-  },
-  startThread(listener, source) {
-    const worker =
-      source === undefined
-        ? new Worker(new URL('./worker_thread_node.js', import.meta.url))
-        : new Worker(source, { eval: true });
-    let ended = false;
-    const failed = (cause: unknown): void => {
-      if (!ended) listener.failed(cause);
+setReader((source) => {
+  const url = source instanceof URL || /^[a-z][a-z\d+.-]+:/i.test(source) ? new URL(source) : null;
+  return url && url.protocol !== 'file:' ? fetch(url) : readFile(url ?? source);
+});
+
+/** Gives a script that is written for browsers the port that it expects. */
+const kPrelude = "globalThis.self = require('node:worker_threads').parentPort;\n";
+
+setThreadStarter((listener, script) => {
+  const worker =
+    script === undefined
+      ? new Worker(new URL('./worker_thread_node.js', import.meta.url))
+      : new Worker(kPrelude + script, { eval: true });
+  let ended = false;
+  const failed = (cause: Error): void => {
+    if (!ended) listener.failed(cause);
+    ended = true;
+  };
+  worker.on('message', (data: unknown) => {
+    listener.message(data);
+  });
+  worker.on('messageerror', failed);
+  worker.on('error', failed);
+  worker.on('exit', (code) => {
+    failed(new Error(`the thread ended with code ${code}`));
+  });
+  return {
+    post: (message, transfer) => {
+      worker.postMessage(message, transfer);
+    },
+    terminate: () => {
       ended = true;
-    };
-    worker.on('message', (data: unknown) => {
-      listener.message(data);
-    });
-    worker.on('messageerror', failed);
-    worker.on('error', failed);
-    worker.on('exit', (code) => {
-      failed(new Error(`the thread ended with code ${code}`));
-    });
-    return {
-      post: (message, transfer) => {
-        worker.postMessage(message, transfer);
-      },
-      terminate: () => {
-        ended = true;
-        void worker.terminate();
-      },
-      keepAlive: (yes) => {
-        if (yes) worker.ref();
-        else worker.unref();
-      },
-    };
-  },
+      void worker.terminate();
+    },
+    keepAlive: (yes) => {
+      if (yes) worker.ref();
+      else worker.unref();
+    },
+  };
 });

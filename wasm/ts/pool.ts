@@ -1,0 +1,234 @@
+// Threads, the calls that wait for them, and what becomes of both when a call ends early.
+import { SoapfilmError } from './errors.js';
+import { buffersOf, copyOf, unpackError, type Calls, type Reply, type Request } from './protocol.js';
+import { startThread, type Thread } from './thread.js';
+import type { ProgressListener } from './types.js';
+
+interface Job {
+  readonly request: Request & { readonly kind: 'call' };
+  readonly onProgress: ProgressListener | undefined;
+  readonly resolve: (value: unknown) => void;
+  readonly reject: (reason: unknown) => void;
+}
+
+/** A thread that has started, and its call. */
+interface Member {
+  readonly thread: Thread;
+  job: Job | undefined;
+}
+
+export class Pool {
+  readonly #module: WebAssembly.Module;
+  readonly #size: number;
+  readonly #members = new Set<Member>();
+  readonly #queue: Job[] = [];
+  #starting = 0;
+  /** The thread's script as text, once its file has failed. */
+  #script: string | undefined;
+  #disposed = false;
+
+  constructor(module: WebAssembly.Module, size: number) {
+    this.#module = module;
+    this.#size = size;
+  }
+
+  /**
+   * Runs one function in a thread.
+   * @throws SoapfilmError of the function, `cancelled`, `disposed`, `crashed`, or `load-failed` when
+   *   no thread can be started; what `onProgress` throws, which also ends the work
+   */
+  call<N extends keyof Calls>(
+    name: N,
+    input: Parameters<Calls[N]>,
+    signal: AbortSignal | undefined,
+    onProgress: ProgressListener | undefined,
+  ): Promise<unknown> {
+    return new Promise((resolve, reject) => {
+      if (this.#disposed) throw disposed();
+      if (signal?.aborted) throw cancelled(signal);
+      const abort = (): void => {
+        if (signal) this.#drop(job, cancelled(signal));
+      };
+      const ended = (): void => {
+        signal?.removeEventListener('abort', abort);
+      };
+      const job: Job = {
+        request: { kind: 'call', name, input: copyOf(input), progress: onProgress !== undefined },
+        onProgress,
+        resolve: (value) => {
+          ended();
+          resolve(value);
+        },
+        reject: (reason) => {
+          ended();
+          // eslint-disable-next-line @typescript-eslint/prefer-promise-reject-errors -- thrown on as it is
+          reject(reason);
+        },
+      };
+      signal?.addEventListener('abort', abort);
+      this.#queue.push(job);
+      this.#pump();
+    });
+  }
+
+  dispose(): void {
+    this.#disposed = true;
+    const jobs = [...this.#members].flatMap(({ job }) => job ?? []).concat(this.#queue.splice(0));
+    for (const member of [...this.#members]) this.#end(member);
+    for (const job of jobs) job.reject(disposed());
+  }
+
+  /** Hands waiting calls to free threads, and starts threads for the rest. */
+  #pump(): void {
+    for (const member of this.#members) {
+      if (this.#queue.length === 0) return;
+      if (!member.job) this.#assign(member, this.#queue.shift() as Job);
+    }
+    while (this.#starting < this.#queue.length && this.#members.size + this.#starting < this.#size) {
+      this.start().catch(() => undefined);
+    }
+  }
+
+  #assign(member: Member, job: Job): void {
+    member.job = job;
+    member.thread.keepAlive(true);
+    try {
+      member.thread.post(job.request, buffersOf(job.request.input));
+    } catch (cause) {
+      this.#release(member);
+      job.reject(
+        new SoapfilmError('bad-option', 'The input holds what cannot be sent to a worker', undefined, {
+          cause,
+        }),
+      );
+    }
+  }
+
+  #release(member: Member): void {
+    member.job = undefined;
+    member.thread.keepAlive(false);
+    this.#pump();
+  }
+
+  #end(member: Member): void {
+    member.thread.terminate();
+    member.job = undefined;
+    this.#members.delete(member);
+  }
+
+  /** Ends a call that waits or runs. A running one takes its thread with it, and a new one starts. */
+  #drop(job: Job, reason: unknown): void {
+    const index = this.#queue.indexOf(job);
+    if (index >= 0) this.#queue.splice(index, 1);
+    for (const member of [...this.#members]) {
+      if (member.job !== job) continue;
+      this.#end(member);
+      // Already now, so that the next call need not wait for it.
+      this.start().catch(() => undefined);
+    }
+    job.reject(reason);
+  }
+
+  /**
+   * Starts one more thread and gives it work. If that fails, and there is no other thread to take
+   * them, the calls that wait fail likewise.
+   * @throws SoapfilmError `load-failed`, `disposed`
+   */
+  async start(): Promise<void> {
+    this.#starting++;
+    let member: Member;
+    try {
+      member = await this.#launchSomehow();
+    } catch (cause) {
+      const text = `No worker can be started: ${String(cause)}`;
+      const error =
+        cause instanceof SoapfilmError
+          ? cause
+          : new SoapfilmError('load-failed', text, undefined, { cause });
+      if (this.#members.size === 0 && this.#starting === 1) {
+        for (const job of this.#queue.splice(0)) job.reject(error);
+      }
+      throw error;
+    } finally {
+      this.#starting--;
+    }
+    if (this.#disposed) {
+      member.thread.terminate();
+      throw disposed();
+    }
+    this.#members.add(member);
+    this.#release(member);
+  }
+
+  /** Launches a thread from its file, or where that fails from the copy within the library. */
+  async #launchSomehow(): Promise<Member> {
+    if (this.#script !== undefined) return this.#launch(this.#script);
+    try {
+      return await this.#launch();
+    } catch (cause) {
+      if (cause instanceof SoapfilmError) throw cause;
+      // Bundlers may lose the file, and browsers refuse one from another origin.
+      const { default: script } = await import('./worker_thread_inline.js').catch(() => {
+        throw cause;
+      });
+      const member = await this.#launch(script);
+      this.#script = script;
+      return member;
+    }
+  }
+
+  /** A thread that has said that it is ready. */
+  #launch(script?: string): Promise<Member> {
+    return new Promise((resolve, reject) => {
+      const thread = startThread(
+        {
+          message: (data) => {
+            const reply = data as Reply;
+            if (reply.kind === 'ready') resolve(member);
+            else if (member.job) this.#hear(member, member.job, reply);
+            else if (reply.kind === 'error') reject(unpackError(reply.error));
+          },
+          failed: (cause) => {
+            reject(cause);
+            const { job } = member;
+            this.#end(member);
+            job?.reject(
+              new SoapfilmError('crashed', `The worker failed: ${cause.message}`, undefined, { cause }),
+            );
+            this.#pump();
+          },
+        },
+        script,
+      );
+      const member: Member = { thread, job: undefined };
+      const request: Request = { kind: 'start', module: this.#module };
+      thread.post(request, []);
+    });
+  }
+
+  #hear(member: Member, job: Job, reply: Reply): void {
+    switch (reply.kind) {
+      case 'progress':
+        try {
+          job.onProgress?.(...reply.values);
+        } catch (error) {
+          this.#drop(job, error);
+        }
+        break;
+      case 'done':
+        job.resolve(reply.value);
+        this.#release(member);
+        break;
+      case 'error':
+        job.reject(unpackError(reply.error));
+        this.#release(member);
+        break;
+    }
+  }
+}
+
+const disposed = (): SoapfilmError =>
+  new SoapfilmError('disposed', 'The worker pool has been disposed of');
+
+const cancelled = (signal: AbortSignal): SoapfilmError =>
+  new SoapfilmError('cancelled', 'The work was cancelled', undefined, { cause: signal.reason });

@@ -1,0 +1,69 @@
+// What the pool and its threads say to each other.
+import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
+import type { LoopsLike, NoSpan, Span, SpanOptions } from './types.js';
+
+/** The functions that a thread can be asked for. */
+export interface Calls {
+  spanLoops: (loops: LoopsLike, options: SpanOptions) => Span | NoSpan;
+}
+
+/** To a thread: first of all the core, then one call at a time. */
+export type Request =
+  | { readonly kind: 'start'; readonly module: WebAssembly.Module }
+  | {
+      readonly kind: 'call';
+      readonly name: keyof Calls;
+      readonly input: Parameters<Calls[keyof Calls]>;
+      /** Whether anyone listens to the progress. */
+      readonly progress: boolean;
+    };
+
+/** From a thread: `ready` once; for each call any number of `progress`, then `done` or `error`. */
+export type Reply =
+  | { readonly kind: 'ready' }
+  | { readonly kind: 'progress'; readonly values: readonly [number, number, number] }
+  | { readonly kind: 'done'; readonly value: unknown }
+  | { readonly kind: 'error'; readonly error: PlainError };
+
+/** A SoapfilmError as plain data: structured cloning loses classes. */
+export interface PlainError {
+  readonly code: ErrorCode;
+  readonly message: string;
+  readonly place: ErrorPlace;
+}
+
+export function packError(error: unknown): PlainError {
+  if (!(error instanceof SoapfilmError)) {
+    return { code: 'crashed', message: `The worker failed: ${String(error)}`, place: {} };
+  }
+  const { code, message, loop, vertex, otherLoop, otherVertex, face, line } = error;
+  const place = { loop, vertex, otherLoop, otherVertex, face, line };
+  const known = Object.entries(place).filter(([, index]) => index !== undefined);
+  return { code, message, place: Object.fromEntries(known) };
+}
+
+export function unpackError({ code, message, place }: PlainError): SoapfilmError {
+  return new SoapfilmError(code, message, place);
+}
+
+const isTypedArray = (value: unknown): value is Float64Array =>
+  ArrayBuffer.isView(value) && !(value instanceof DataView);
+
+/** A deep copy of plain data, in which no array shares memory with another. */
+export function copyOf<T>(value: T): T;
+export function copyOf(value: unknown): unknown {
+  if (isTypedArray(value)) return value.slice();
+  if (Array.isArray(value)) return value.map((item: unknown) => copyOf(item));
+  if (typeof value !== 'object' || value === null) return value;
+  return Object.fromEntries(Object.entries(value).map(([key, item]) => [key, copyOf(item)]));
+}
+
+/** The buffers of all typed arrays in plain data. */
+export function buffersOf(value: unknown, found = new Set<ArrayBuffer>()): ArrayBuffer[] {
+  if (isTypedArray(value)) {
+    if (value.buffer instanceof ArrayBuffer) found.add(value.buffer);
+  } else if (typeof value === 'object' && value !== null) {
+    for (const item of Object.values(value)) buffersOf(item, found);
+  }
+  return [...found];
+}

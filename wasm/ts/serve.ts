@@ -1,0 +1,41 @@
+// A thread's side of the pool: runs the calls that it is sent, one after the other.
+import { spanLoops } from './loops.js';
+import { buffersOf, packError, type Calls, type Reply, type Request } from './protocol.js';
+import { startCore } from './runtime.js';
+
+/** The end of the thread's channel, alike in browsers and Node. */
+export interface Port {
+  onmessage: ((event: { readonly data: unknown }) => void) | null;
+  postMessage(message: unknown, transfer: ArrayBuffer[]): void;
+}
+
+const calls: Calls = { spanLoops };
+
+/** Answers the requests that come through `port`, as long as the thread lives. */
+export function serve(port: Port): void {
+  const reply = (message: Reply, transfer: ArrayBuffer[] = []): void => {
+    port.postMessage(message, transfer);
+  };
+  const answer = async (request: Request): Promise<void> => {
+    if (request.kind === 'start') {
+      await startCore(request.module);
+      reply({ kind: 'ready' });
+      return;
+    }
+    const [loops, options] = request.input;
+    const value = calls[request.name](loops, {
+      ...options,
+      ...(request.progress && {
+        onProgress: (...values) => {
+          reply({ kind: 'progress', values });
+        },
+      }),
+    });
+    reply({ kind: 'done', value }, buffersOf(value));
+  };
+  port.onmessage = ({ data }) => {
+    answer(data as Request).catch((error: unknown) => {
+      reply({ kind: 'error', error: packError(error) });
+    });
+  };
+}

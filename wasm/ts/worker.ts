@@ -1,0 +1,59 @@
+/// <reference lib="esnext.disposable" preserve="true" />
+// The entry `soapfilm/worker`: the library's functions in threads of their own.
+import { SoapfilmError } from './errors.js';
+import { compile } from './load.js';
+import { Pool } from './pool.js';
+import type { LoadOptions, LoopsLike, NoSpan, Span, SpanOptions } from './types.js';
+
+export { SoapfilmError } from './errors.js';
+
+export interface WorkerOptions extends LoadOptions {
+  /** Threads at most, each started when there is work for it. Default 1. */
+  readonly size?: number;
+}
+
+/** What every asynchronous call takes besides the options of its function. */
+export interface CallOptions {
+  /** Ends the work at once with `cancelled`; the signal's reason is the error's `cause`. */
+  readonly signal?: AbortSignal;
+}
+
+/**
+ * A pool of threads. Calls start in order as threads become free. Input is copied when the call is
+ * made; results are the caller's own. Errors are those of the synchronous functions, and
+ * `cancelled`, `disposed`, `crashed`; after any of them but `disposed` the next call works.
+ */
+export interface Film {
+  /** Like the function of the package's main entry; `onProgress` is called in this thread. */
+  spanLoops(loops: LoopsLike, options?: SpanOptions & CallOptions): Promise<Span | NoSpan>;
+  /** Ends all threads; calls under way, and later ones, are rejected with `disposed`. */
+  dispose(): void;
+  [Symbol.dispose](): void;
+}
+
+/** The key of `using`, also where the engine does not know it yet. */
+const kDispose: typeof Symbol.dispose = ((Symbol as { readonly dispose?: symbol }).dispose ??
+  Symbol.for('Symbol.dispose')) as typeof Symbol.dispose;
+
+/**
+ * Starts a pool. Needs no `load()`, and shares the compiled core with it.
+ * @throws SoapfilmError `load-failed`, `bad-option`
+ */
+export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
+  const { size = 1 } = options;
+  if (!Number.isInteger(size) || size < 1) {
+    throw new SoapfilmError('bad-option', '`size` is a whole number of threads, at least 1');
+  }
+  const pool = new Pool(await compile(options), size);
+  await pool.start();
+  const dispose = (): void => {
+    pool.dispose();
+  };
+  return {
+    async spanLoops(loops, { signal, onProgress, ...rest } = {}) {
+      return (await pool.call('spanLoops', [loops, rest], signal, onProgress)) as Span | NoSpan;
+    },
+    dispose,
+    [kDispose]: dispose,
+  };
+}
