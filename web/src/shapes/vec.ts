@@ -1,0 +1,41 @@
+// Small vector arithmetic on plain triples, for what must not depend on the renderer.
+import type { Point } from 'soapfilm';
+
+export type { Point };
+
+export const add = (a: Point, b: Point): Point => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+export const subtract = (a: Point, b: Point): Point => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+export const scale = (a: Point, s: number): Point => [a[0] * s, a[1] * s, a[2] * s];
+export const dot = (a: Point, b: Point): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const cross = (a: Point, b: Point): Point => [
+  a[1] * b[2] - a[2] * b[1],
+  a[2] * b[0] - a[0] * b[2],
+  a[0] * b[1] - a[1] * b[0],
+];
+export const length = (a: Point): number => Math.hypot(a[0], a[1], a[2]);
+export const normalize = (a: Point): Point => scale(a, 1 / (length(a) || 1));
+
+export interface Bounds {
+  readonly center: Point;
+  /** Length of the bounding box's diagonal; 0 for one point and for none. */
+  readonly diagonal: number;
+}
+
+/** The bounding box of curves, by its centre and diagonal; centre 0 where there are no points. */
+export function boundsOf(curves: readonly (readonly Point[])[]): Bounds {
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  for (const curve of curves) {
+    for (const point of curve) {
+      for (let axis = 0; axis < 3; axis++) {
+        low[axis] = Math.min(low[axis], point[axis]);
+        high[axis] = Math.max(high[axis], point[axis]);
+      }
+    }
+  }
+  if (low[0] > high[0]) return { center: [0, 0, 0], diagonal: 0 };
+  return {
+    center: [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2],
+    diagonal: Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]),
+  };
+}

@@ -1,0 +1,85 @@
+// Files in and out: opening loops, saving loops, surfaces and pictures.
+import { formatLoops, formatObj, parseLoops, SoapfilmError } from 'soapfilm';
+import { fromLoopSet, toLoopSet } from './document.ts';
+import type { Example } from './gallery.ts';
+import { isStale, surface } from './solving.ts';
+import { dispatch, doc, requestFrame, say } from './store.ts';
+
+/** Files beyond this are not curves drawn by anyone. */
+const kMaxBytes = 64 * 2 ** 20;
+
+/** Opens a `.curve`, JSON or OBJ file in place of the document; says what is wrong if it cannot. */
+export async function openFile(file: File): Promise<void> {
+  if (file.size > kMaxBytes) {
+    say(`“${file.name}” has ${Math.round(file.size / 2 ** 20)} MB; files of loops are far smaller.`, 'error');
+    return;
+  }
+  try {
+    const loops = parseLoops(new Uint8Array(await file.arrayBuffer()));
+    const curves = fromLoopSet(loops);
+    dispatch({ type: 'open', name: loops.name ?? file.name.replace(/\.[^.]*$/, ''), curves });
+    requestFrame();
+    say(`Opened “${file.name}”: ${countOf(curves.length, 'curve')}.`);
+  } catch (error) {
+    const reason = error instanceof SoapfilmError ? error.message : 'the browser could not read it';
+    say(`Could not open “${file.name}”: ${reason}`, 'error');
+  }
+}
+
+export function openExample(example: Example, variant: number | undefined, atOnce = false): void {
+  dispatch({
+    type: 'open',
+    name: variant === undefined ? example.title : `${example.title} (${variant})`,
+    curves: example.curves(variant),
+    settings: example.settings,
+  });
+  requestFrame(example.view, atOnce);
+}
+
+/** Downloads the surface as OBJ; returns whether there was one to be had. */
+export function saveSurface(): boolean {
+  const shown = surface.peek();
+  if (shown === null || isStale.peek()) {
+    say('There is no surface of these curves to export yet.', 'error');
+    return false;
+  }
+  download(`${fileStem()}.obj`, formatObj(shown.span, { name: doc.peek().name }), 'model/obj');
+  return true;
+}
+
+export function saveLoops(format: 'curve' | 'json'): boolean {
+  const { curves, name } = doc.peek();
+  if (curves.length === 0) {
+    say('There are no curves to export yet.', 'error');
+    return false;
+  }
+  const text = formatLoops({ ...toLoopSet(curves), name }, format);
+  download(`${fileStem()}.${format}`, text, format === 'json' ? 'application/json' : 'text/plain');
+  return true;
+}
+
+export function savePicture(picture: Blob): void {
+  download(`${fileStem()}.png`, picture, 'image/png');
+}
+
+function fileStem(): string {
+  const stem = doc.peek().name.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '');
+  return stem === '' ? 'soapfilm' : stem;
+}
+
+function download(fileName: string, data: string | Blob, type: string): void {
+  const url = URL.createObjectURL(typeof data === 'string' ? new Blob([data], { type }) : data);
+  const link = document.createElement('a');
+  link.href = url;
+  link.download = fileName;
+  link.click();
+  // Safari reads the address only after the click has been handled.
+  setTimeout(() => {
+    URL.revokeObjectURL(url);
+  }, 10_000);
+}
+
+/** "1 curve", "3 curves". */
+export function countOf(count: number, noun: string, plural = `${noun}s`): string {
+  return `${count.toLocaleString('en')} ${count === 1 ? noun : plural}`;
+}

@@ -1,0 +1,174 @@
+// Spanning the document in the worker: when to begin, when to cancel, and what came of it.
+import { batch, computed, effect, signal } from '@preact/signals';
+import { SoapfilmError, type Span, type SpaceUsed } from 'soapfilm';
+import { createWorker } from 'soapfilm/worker';
+import { spanOptions, toLoopSet, type Curve, type Document } from './document.ts';
+import { doc } from './store.ts';
+
+/** A loop of the document, one of its vertices, or the edge from that vertex to the next. */
+export interface Fault {
+  readonly curve: number;
+  readonly vertex?: number;
+  readonly isEdge: boolean;
+}
+
+export type Solve =
+  | { readonly phase: 'idle' }
+  | {
+      readonly phase: 'running';
+      readonly fraction: number;
+      readonly bestCost: number;
+      readonly lowerBound: number;
+      readonly since: number;
+    }
+  | { readonly phase: 'done' }
+  | { readonly phase: 'none'; readonly reason: string; readonly candidates: SpaceUsed }
+  | { readonly phase: 'cancelled' }
+  | { readonly phase: 'failed'; readonly code: string; readonly message: string; readonly faults: readonly Fault[] };
+
+/** A surface, what it spans, and how it should come into view. */
+export interface Surface {
+  readonly span: Span;
+  readonly of: Document;
+  readonly entrance: 'grow' | 'at-once';
+}
+
+export const solve = signal<Solve>({ phase: 'idle' });
+export const surface = signal<Surface | null>(null);
+/** Whether changes are spanned without being asked. */
+export const auto = signal(true);
+
+/** Whether the surface shown spans other curves or settings than the document's. */
+export const isStale = computed(() => {
+  const of = surface.value?.of;
+  return of !== undefined && (of.curves !== doc.value.curves || of.settings !== doc.value.settings);
+});
+
+/** A change arrives in pieces (slider, drag): wait this long for the next. */
+const kSettle = 60;
+/** During a drag a span this quick is let finish; a slower one waits for the drag's end. */
+const kLiveSeconds = 0.25;
+
+let film: ReturnType<typeof createWorker> | null = null;
+let running: AbortController | null = null;
+let timer: ReturnType<typeof setTimeout> | undefined;
+let lastSeconds = 0;
+let isLive = false;
+/** What the last span begun is of. */
+let begun: Document | null = null;
+
+/** Marks the changes that follow as passing ones of a drag or a slider, shown without ceremony. */
+export function setLive(live: boolean): void {
+  const ended = isLive && !live;
+  isLive = live;
+  if (ended && auto.peek() && isDue()) schedule();
+}
+
+/** Begins to span the document, in place of any span still running. */
+export function startSpan(): void {
+  clearTimeout(timer);
+  cancelRunning();
+  const of = doc.peek();
+  begun = of;
+  if (of.curves.length === 0) {
+    batch(() => {
+      solve.value = { phase: 'idle' };
+      surface.value = null;
+    });
+    return;
+  }
+  void run(of, isLive);
+}
+
+/** Ends the running span; the surface shown stays. */
+export function cancelSpan(): void {
+  clearTimeout(timer);
+  if (running === null) return;
+  cancelRunning();
+  solve.value = { phase: 'cancelled' };
+}
+
+function cancelRunning(): void {
+  running?.abort();
+  running = null;
+}
+
+async function run(of: Document, live: boolean): Promise<void> {
+  const mine = new AbortController();
+  const since = performance.now();
+  const isMine = () => running === mine;
+  running = mine;
+  solve.value = { phase: 'running', fraction: 0, bestCost: Infinity, lowerBound: 0, since };
+  try {
+    const worker = await (film ??= createWorker());
+    if (!isMine()) return;
+    const outcome = await worker.spanLoops(toLoopSet(of.curves), {
+      ...spanOptions(of),
+      signal: mine.signal,
+      onProgress: (fraction, bestCost, lowerBound) => {
+        if (isMine()) solve.value = { phase: 'running', fraction, bestCost, lowerBound, since };
+      },
+    });
+    if (!isMine()) return;
+    running = null;
+    lastSeconds = (performance.now() - since) / 1000;
+    batch(() => {
+      if (outcome.found) {
+        surface.value = { span: outcome, of, entrance: live ? 'at-once' : 'grow' };
+        solve.value = { phase: 'done' };
+      } else {
+        surface.value = null;
+        solve.value = { phase: 'none', reason: outcome.reason, candidates: outcome.candidates };
+      }
+    });
+  } catch (error) {
+    if (!isMine()) return;
+    running = null;
+    // A worker that could not be made is tried again with the next span.
+    if (error instanceof SoapfilmError && error.code === 'load-failed') film = null;
+    batch(() => {
+      surface.value = null;
+      solve.value = failure(error, of.curves);
+    });
+  }
+  if (auto.peek() && isDue()) schedule();
+}
+
+/** Whether the document has changed since the last span began. */
+function isDue(): boolean {
+  const now = doc.peek();
+  return begun === null || begun.curves !== now.curves || begun.settings !== now.settings;
+}
+
+function schedule(): void {
+  clearTimeout(timer);
+  timer = setTimeout(() => {
+    if (isLive && (running !== null || lastSeconds > kLiveSeconds)) return;
+    startSpan();
+  }, isLive ? 0 : kSettle);
+}
+
+function failure(error: unknown, curves: readonly Curve[]): Solve {
+  if (!(error instanceof SoapfilmError)) {
+    return { phase: 'failed', code: 'crashed', message: String(error), faults: [] };
+  }
+  const isEdge = error.code === 'loops-intersect';
+  const faults: Fault[] = [];
+  const note = (curve: number | undefined, vertex: number | undefined) => {
+    if (curve === undefined || !(curve in curves)) return;
+    faults.push(vertex === undefined ? { curve, isEdge } : { curve, vertex, isEdge });
+  };
+  note(error.loop, error.vertex);
+  note(error.otherLoop, error.otherVertex);
+  return { phase: 'failed', code: error.code, message: error.message, faults };
+}
+
+/** Spans the document whenever it changes, from now on. */
+export function followDocument(): void {
+  effect(() => {
+    const { curves } = doc.value;
+    if (!isDue()) return;
+    if (curves.length === 0) startSpan();
+    else if (auto.value) schedule();
+  });
+}

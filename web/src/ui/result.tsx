@@ -1,0 +1,155 @@
+// What came of the span: cost and figures, or in words why there is none.
+import type { CandidateSpace, Span, SpaceUsed } from 'soapfilm';
+import { cancelSpan, isStale, solve, startSpan, surface, type Solve } from '../state/solving.ts';
+import { dispatch, doc } from '../state/store.ts';
+import { Section } from './controls.tsx';
+import { Icon } from './icons.tsx';
+
+const kSpaceNames: Record<SpaceUsed, string> = {
+  all: 'all triangles',
+  delaunay: 'Delaunay triangles',
+  near: 'near triangles',
+  given: 'the given triangles',
+};
+
+const kWider: Partial<Record<SpaceUsed, { space: CandidateSpace; label: string }>> = {
+  delaunay: { space: 'near', label: 'Try near triangles' },
+  near: { space: 'all', label: 'Try all triangles' },
+};
+
+export function Result() {
+  const state = solve.value;
+  const span = surface.value?.span;
+  return (
+    <Section title="Result">
+      {state.phase === 'running' && <Running state={state} />}
+      {state.phase === 'failed' && <Failed state={state} />}
+      {state.phase === 'none' && <None state={state} />}
+      {state.phase === 'cancelled' && <Cancelled />}
+      {state.phase === 'idle' && <p class="muted">Nothing to span yet. Draw a closed curve, open a file, or take one from the gallery.</p>}
+      {span && <Figures span={span} faded={isStale.value} />}
+    </Section>
+  );
+}
+
+function Running({ state }: { state: Extract<Solve, { phase: 'running' }> }) {
+  return (
+    <div class="running">
+      <div class="running-head">
+        <span>Spanning…</span>
+        <span class="count">{Math.floor(100 * state.fraction)} %</span>
+        <button type="button" class="button small" onClick={cancelSpan}>
+          Cancel
+        </button>
+      </div>
+      <progress aria-label="Spanning" max={1} value={state.fraction} />
+    </div>
+  );
+}
+
+function Failed({ state }: { state: Extract<Solve, { phase: 'failed' }> }) {
+  return (
+    <div class="message error">
+      <p>{state.message}</p>
+      {state.faults.length > 0 && <p class="muted">The place is marked in red.</p>}
+    </div>
+  );
+}
+
+function None({ state }: { state: Extract<Solve, { phase: 'none' }> }) {
+  const wider = kWider[state.candidates];
+  return (
+    <div class="message">
+      <p>
+        <strong>No surface in this space.</strong> No manifold surface on {doc.value.curves.length === 1 ? 'this curve' : 'these curves'} can
+        be made of {kSpaceNames[state.candidates]} alone.
+      </p>
+      {wider && (
+        <button
+          type="button"
+          class="button primary"
+          onClick={() => {
+            dispatch({ type: 'set', settings: { candidates: wider.space } });
+            startSpan();
+          }}
+        >
+          {wider.label}
+        </button>
+      )}
+    </div>
+  );
+}
+
+function Cancelled() {
+  return (
+    <div class="message">
+      <p>Cancelled.</p>
+      <button type="button" class="button" onClick={startSpan}>
+        Span again
+      </button>
+    </div>
+  );
+}
+
+function Figures({ span, faded }: { span: Span; faded: boolean }) {
+  const { terms, stats } = span;
+  const inserted = span.inserted.length;
+  return (
+    <div class={faded ? 'figures faded' : 'figures'}>
+      <div class="cost">
+        <span class="label">Cost</span>
+        <output class="cost-value">{figure(span.cost)}</output>
+        {span.optimal ? (
+          <span class="badge good" title={`Proven: no surface of ${kSpaceNames[span.candidates]} costs less`}>
+            <Icon name="check" /> optimal
+          </span>
+        ) : (
+          <span class="badge" title={`No surface costs less than ${figure(span.lowerBound)}`}>
+            {span.lowerBound > 0 ? `within ${(100 * (span.cost / span.lowerBound - 1)).toFixed(1)} %` : 'not proven'}
+          </span>
+        )}
+      </div>
+      <p class="muted">among {kSpaceNames[span.candidates]}</p>
+      <dl>
+        <Row name="Area" value={figure(terms.area)} />
+        <Row name="Perimeters" value={figure(terms.perimeter)} />
+        <Row name="Bending" value={`${figure(terms.dihedral)} rad`} />
+        <Row name="Worst angle" value={`${((terms.worstDihedral * 180) / Math.PI).toFixed(1)}°`} />
+        <Row name="Vertices" value={whole(span.positions.length / 3) + (inserted > 0 ? ` (${whole(inserted)} inserted)` : '')} />
+        <Row name="Triangles" value={whole(span.triangles.length / 3)} />
+        <Row name="Candidates" value={whole(stats.candidates)} />
+        <Row name="Domains" value={whole(stats.domains)} />
+        <Row name="Memory" value={bytes(stats.peakBytes)} />
+        <Row name="Time" value={seconds(stats.seconds)} />
+      </dl>
+    </div>
+  );
+}
+
+function Row(props: { name: string; value: string }) {
+  return (
+    <div>
+      <dt>{props.name}</dt>
+      <dd>{props.value}</dd>
+    </div>
+  );
+}
+
+/** Five significant digits, without trailing noise. */
+export function figure(value: number): string {
+  if (!Number.isFinite(value)) return '–';
+  const size = Math.abs(value);
+  if (size !== 0 && (size >= 1e6 || size < 1e-4)) return value.toExponential(3);
+  return Number(value.toPrecision(5)).toLocaleString('en', { maximumSignificantDigits: 5 });
+}
+
+const whole = (value: number): string => Math.round(value).toLocaleString('en');
+
+function bytes(count: number): string {
+  if (count < 1e3) return `${count} B`;
+  if (count < 1e6) return `${(count / 1e3).toFixed(0)} kB`;
+  return count < 1e9 ? `${(count / 1e6).toFixed(1)} MB` : `${(count / 1e9).toFixed(2)} GB`;
+}
+
+const seconds = (value: number): string =>
+  value < 1 ? `${(value * 1000).toFixed(value < 0.01 ? 1 : 0)} ms` : `${value.toFixed(2)} s`;
