@@ -86,8 +86,9 @@ class Domains {
   bool makeCanonical(std::vector<uint32_t>& shape) const;
 
   /// Calls visit(const Split&) for every split of d by a triangle on its access edge with this
-  /// third vertex, but for those that cannot be part of a manifold surface. None if the apex is
-  /// neither on the boundary nor on a hole, or is an end of the access edge.
+  /// third vertex, but for those that cannot be part of a manifold surface, until visit returns
+  /// false. None if the apex is neither on the boundary nor on a hole, or is an end of the access
+  /// edge. With h holes, an apex on the boundary has up to 2^h splits.
   template <class Visit>
   void forEachSplit(Shape d, uint32_t apex, Visit&& visit);
 
@@ -126,7 +127,7 @@ void Domains::forEachSplit(Shape d, uint32_t apex, Visit&& visit) {
   if (hasHole(d, loops_.loopOf(apex))) {
     for (const bool reversed : {false, true}) {
       splitAtHole(d, apex, reversed);
-      visit(const_cast<const Split&>(split_));
+      if (!visit(const_cast<const Split&>(split_))) return;
     }
     return;
   }
@@ -142,8 +143,9 @@ void Domains::forEachSplit(Shape d, uint32_t apex, Visit&& visit) {
       splitAtBoundary(d, apex, j, before, after);
       for (bool more = true; more; more = nextDistribution()) {
         distribute();
-        if (classify(split_.part[0], repeats_[0]) && classify(split_.part[1], repeats_[1]))
-          visit(const_cast<const Split&>(split_));
+        if (classify(split_.part[0], repeats_[0]) && classify(split_.part[1], repeats_[1]) &&
+            !visit(const_cast<const Split&>(split_)))
+          return;
       }
     }
     return;

@@ -152,14 +152,16 @@ bool ExactSolver::open(uint32_t domain) {
       const double b = bound(split, slot, triangles);
       if (b < kInfinity) candidates.push_back({b, slot, ordinal});
       ++ordinal;
+      return pass_.work.tick(300);
     });
   }
+  if (!pass_.work.going()) return false;
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.bound < b.bound || (a.bound == b.bound && std::make_pair(a.slot, a.ordinal) <
                                                            std::make_pair(b.slot, b.ordinal));
   });
   ++domainCount_;
-  return pass_.work.tick(500 + 300 * uint32_t(std::min<size_t>(candidates.size(), 1u << 16)));
+  return true;
 }
 
 uint32_t ExactSolver::insertPart(const Split& split, uint32_t i, uint32_t t,
@@ -199,7 +201,7 @@ bool ExactSolver::makeParts(const Frame& frame, const Candidate& candidate) {
   uint32_t ordinal = 0;
   bool good = true;
   domains_.forEachSplit(shape, pass_.set.slotApex[candidate.slot], [&](const Split& split) {
-    if (ordinal++ != candidate.ordinal) return;
+    if (ordinal++ != candidate.ordinal) return true;
     partCount_ = split.partCount;
     for (uint32_t i = 0; i < split.partCount; ++i) {
       const SplitPart& part = split.part[i];
@@ -210,10 +212,7 @@ bool ExactSolver::makeParts(const Frame& frame, const Candidate& candidate) {
       out.spanning.clear();
       if (part.kind == PartKind::Domain) {
         out.ref.a = insertPart(split, i, t, triangles);
-        if (out.ref.a == kNone) {
-          good = false;
-          return;
-        }
+        if (out.ref.a == kNone) return good = false;
         criticalSpanningEdges(part.shape, out.spanning);
         continue;
       }
@@ -225,6 +224,7 @@ bool ExactSolver::makeParts(const Frame& frame, const Candidate& candidate) {
         out.cost = segmentCost(part, t, out.ref.b);
       }
     }
+    return false;
   });
   return good;
 }

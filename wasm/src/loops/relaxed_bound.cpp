@@ -7,6 +7,8 @@ namespace sf {
 RelaxedBound::RelaxedBound(const Pass& pass)
     : pass_(pass), domains_(pass.loops), table_(pass.work), arena_(pass.work) {}
 
+RelaxedBound::~RelaxedBound() { pass_.work.release(entriesCharged_); }
+
 uint32_t RelaxedBound::accessEdge(Shape shape) const {
   const uint32_t m = domains_.segmentCount(shape);
   return pass_.set.edgeBetween(domains_.spanStart(shape, m - 1), domains_.spanEnd(shape, m - 1));
@@ -40,49 +42,57 @@ void RelaxedBound::computeLeastPairs() {
 
 bool RelaxedBound::open(uint32_t domain) {
   const CandidateSet& set = pass_.set;
-  // The key may not move, but the vector of entries does: views into the table stay good.
+  // Keys stay where they are while the table grows.
   const Shape shape = table_.key(domain);
   const uint32_t edge = accessEdge(shape);
   frames_.push_back({domain, entries_.size(), entries_.size()});
-  bool good = true;
-  for (uint32_t slot = set.edgeSlots[edge]; slot < set.edgeSlots[edge + 1] && good; ++slot) {
-    const uint32_t t = set.slotTriangle[slot];
-    if (pass_.triangleCost[t] == kInfinity) continue;
-    domains_.forEachSplit(shape, set.slotApex[slot], [&](const Split& split) {
-      if (!good) return;
-      Entry entry{slot, {kNone, kNone}, {0, 0}, pass_.triangleCost[t]};
-      for (uint32_t i = 0; i < split.partCount; ++i) {
-        const SplitPart& part = split.part[i];
-        const uint32_t partSlot = set.slotOpposite(t, part.apexOpposite);
-        if (part.kind == PartKind::EmptyPair) {
-          entry.cost = pass_.measure.join(entry.cost, leastPair_[partSlot]);
-        } else if (part.kind == PartKind::Segment) {
-          const Segment s = domains_.segment(part.shape, 0);
-          const ClosedSegment closed = pass_.closedSegment(set.edgeOpposite(t, part.apexOpposite),
-                                                           s.reversed, s.start, s.end);
-          entry.cost = pass_.measure.join(entry.cost, pass_.segments.value(partSlot, closed.side));
-        }
-      }
-      // A leaf that cannot be filled spares the domains beside it.
-      if (entry.cost == kInfinity) return;
-      for (uint32_t i = 0; i < split.partCount; ++i) {
-        const SplitPart& part = split.part[i];
-        if (part.kind != PartKind::Domain) continue;
-        scratchKey_ = part.shape;
-        domains_.makeCanonical(scratchKey_);
-        entry.part[i] = table_.insert(scratchKey_);
-        if (entry.part[i] == kNone) {
-          good = false;
-          return;
-        }
-        const uint32_t partEdge = set.edgeOpposite(t, part.apexOpposite);
-        entry.index[i] = set.slotOpposite(t, part.apexOpposite) - set.edgeSlots[partEdge];
-      }
-      entries_.push_back(entry);
-    });
+  for (uint32_t slot = set.edgeSlots[edge]; slot < set.edgeSlots[edge + 1]; ++slot) {
+    if (pass_.triangleCost[set.slotTriangle[slot]] == kInfinity) continue;
+    domains_.forEachSplit(shape, set.slotApex[slot],
+                          [&](const Split& split) { return addEntry(split, slot); });
+    if (!pass_.work.going()) return false;
   }
   if (values_.size() < table_.size()) values_.resize(table_.size(), nullptr);
-  return good;
+  return true;
+}
+
+bool RelaxedBound::addEntry(const Split& split, uint32_t slot) {
+  const CandidateSet& set = pass_.set;
+  const uint32_t t = set.slotTriangle[slot];
+  if (!pass_.work.tick(100)) return false;
+  Entry entry{slot, {kNone, kNone}, {0, 0}, pass_.triangleCost[t]};
+  for (uint32_t i = 0; i < split.partCount; ++i) {
+    const SplitPart& part = split.part[i];
+    const uint32_t partSlot = set.slotOpposite(t, part.apexOpposite);
+    if (part.kind == PartKind::EmptyPair) {
+      entry.cost = pass_.measure.join(entry.cost, leastPair_[partSlot]);
+    } else if (part.kind == PartKind::Segment) {
+      const Segment s = domains_.segment(part.shape, 0);
+      const ClosedSegment closed =
+          pass_.closedSegment(set.edgeOpposite(t, part.apexOpposite), s.reversed, s.start, s.end);
+      entry.cost = pass_.measure.join(entry.cost, pass_.segments.value(partSlot, closed.side));
+    }
+  }
+  // A leaf that cannot be filled spares the domain beside it.
+  if (entry.cost == kInfinity) return true;
+  for (uint32_t i = 0; i < split.partCount; ++i) {
+    const SplitPart& part = split.part[i];
+    if (part.kind != PartKind::Domain) continue;
+    scratchKey_ = part.shape;
+    domains_.makeCanonical(scratchKey_);
+    entry.part[i] = table_.insert(scratchKey_);
+    if (entry.part[i] == kNone) return false;
+    const uint32_t partEdge = set.edgeOpposite(t, part.apexOpposite);
+    entry.index[i] = set.slotOpposite(t, part.apexOpposite) - set.edgeSlots[partEdge];
+  }
+  if (entries_.size() == entries_.capacity()) {
+    const size_t more = std::max<size_t>(entries_.capacity(), 64);
+    if (!pass_.work.charge(more * sizeof(Entry))) return false;
+    entriesCharged_ += more * sizeof(Entry);
+    entries_.reserve(entries_.capacity() + more);
+  }
+  entries_.push_back(entry);
+  return true;
 }
 
 bool RelaxedBound::close(const Frame& frame) {
@@ -90,7 +100,7 @@ bool RelaxedBound::close(const Frame& frame) {
   const uint32_t edge = accessEdge(table_.key(frame.domain));
   const uint32_t begin = set.edgeSlots[edge], degree = set.degree(edge);
   auto* values = arena_.allocate<double>(degree);
-  if (!values) return false;
+  if (!values || !pass_.work.tick(100 + 2 * degree * degree)) return false;
   best_.assign(degree, kInfinity);
   for (size_t i = frame.firstEntry; i < entries_.size(); ++i) {
     const Entry& entry = entries_[i];
@@ -138,11 +148,8 @@ bool RelaxedBound::compute(ArrayView<const uint32_t> root) {
       if (!open(missing)) return false;
       continue;
     }
-    const Frame done = frame;
-    const uint32_t degree = uint32_t(entries_.size() - done.firstEntry);
-    if (!close(done)) return false;
+    if (!close(frame)) return false;
     frames_.pop_back();
-    if (!pass_.work.tick(200 + 200 * degree)) return false;
   }
   return true;
 }

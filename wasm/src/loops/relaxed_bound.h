@@ -17,6 +17,7 @@ namespace sf {
 class RelaxedBound {
  public:
   explicit RelaxedBound(const Pass& pass);
+  ~RelaxedBound();
 
   /// Computes R for the root and all that it can split into; false when the work ended.
   /// Explicit stack. Memory: one double for each domain shape and triangle on its access edge.
@@ -32,6 +33,9 @@ class RelaxedBound {
   /// The least bi-triangle weight that the slot's triangle can have with another at that edge.
   double leastPair(uint32_t slot) const { return leastPair_[slot]; }
 
+  /// Of a domain under work.
+  static constexpr size_t kBytesPerSplit = 40;
+
   uint64_t domainCount() const { return table_.size(); }
 
  private:
@@ -42,12 +46,14 @@ class RelaxedBound {
     uint32_t index[2];  // of the triangle at the part's access edge
     double cost;        // w(t) joined with the costs of the parts that are not domains
   };
+  static_assert(sizeof(Entry) <= kBytesPerSplit);
   struct Frame {
     uint32_t domain;
     size_t firstEntry, cursor;
   };
   uint32_t accessEdge(Shape shape) const;
   bool open(uint32_t domain);
+  bool addEntry(const Split& split, uint32_t slot);
   bool close(const Frame& frame);
   void computeLeastPairs();
 
@@ -58,6 +64,7 @@ class RelaxedBound {
   std::vector<double*> values_;    // by domain: [degree of the access edge], null until computed
   std::vector<double> leastPair_;  // [slots]
   std::vector<Entry> entries_;     // of all open frames, one after the other
+  size_t entriesCharged_ = 0;
   std::vector<Frame> frames_;
   std::vector<double> best_;  // scratch of close(): by index of the slot at the access edge
   std::vector<uint32_t> scratchKey_;

@@ -1,6 +1,7 @@
 #include "loops/solver.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sf {
 namespace {
@@ -14,6 +15,18 @@ uint32_t chooseRoot(const LoopSet& loops, const CandidateSet& set) {
     if (set.degree(set.loopEdges[v]) < set.degree(set.loopEdges[root])) root = v;
   }
   return root;
+}
+
+/// Whether the relaxed bound can be tried: at the root alone, each triangle with its apex on the
+/// same loop splits the holes in 2^(k-1) ways.
+bool holesFit(const LoopSet& loops, const CandidateSet& set, uint32_t root, const Work& work) {
+  const uint32_t edge = set.loopEdges[root];
+  double splits = 0;
+  for (uint32_t s = set.edgeSlots[edge]; s < set.edgeSlots[edge + 1]; ++s) {
+    const bool sameLoop = loops.loopOf(set.slotApex[s]) == loops.loopOf(root);
+    if (sameLoop) splits += std::ldexp(1.0, int(std::min(loops.loopCount() - 1, 1000u)));
+  }
+  return work.fits(splits * RelaxedBound::kBytesPerSplit);
 }
 
 /// One pass in one measure, from fraction `from` to `to` of the work. The least cost, infinity if
@@ -37,6 +50,10 @@ bool runPass(const LoopSet& loops, const CandidateSet& set, const std::vector<do
     surface.domains += set.slotTriangle.size();
     surface.minimalSets += set.slotTriangle.size();
     return true;
+  }
+  if (!holesFit(loops, set, root, work)) {
+    work.fail(Status::TooLarge);
+    return false;
   }
   work.phase(from + segmentShare * (to - from), from + 0.95 * (to - from));
   RelaxedBound bound(pass);
