@@ -13,10 +13,12 @@ setReader((source) => {
 const kPrelude = "globalThis.self = require('node:worker_threads').parentPort;\n";
 
 setThreadStarter((listener, script) => {
+  // Flags of this process, such as `--input-type`, are not for the thread.
+  const execArgv: string[] = [];
   const worker =
     script === undefined
-      ? new Worker(new URL('./worker_thread_node.js', import.meta.url))
-      : new Worker(kPrelude + script, { eval: true });
+      ? new Worker(new URL('./worker_thread_node.js', import.meta.url), { execArgv })
+      : new Worker(kPrelude + script, { eval: true, execArgv });
   let ended = false;
   const failed = (cause: Error): void => {
     if (!ended) listener.failed(cause);
