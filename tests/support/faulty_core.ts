@@ -94,8 +94,8 @@ const kText = `(module
 
 /** The bytes of the stand-in. */
 export async function faultyCore(): Promise<Uint8Array<ArrayBuffer>> {
-  const { parseWat } = await wabt();
-  const parsed = parseWat('faulty_core.wat', kText);
+  const toolkit = await wabt();
+  const parsed = toolkit.parseWat('faulty_core.wat', kText);
   try {
     return new Uint8Array(parsed.toBinary({}).buffer);
   } finally {

@@ -7,6 +7,7 @@ import {
   type LoopSet,
 } from 'soapfilm';
 import { describe, expect, test } from 'vitest';
+import { errorOf } from '../support/errors.js';
 
 const kFormats: LoopFormat[] = ['curve', 'json', 'obj'];
 
@@ -35,16 +36,6 @@ function randomLoops(next: () => number): LoopSet {
   }
   const positions = Float64Array.from({ length: 3 * starts[starts.length - 1] }, coordinate);
   return { positions, starts: Uint32Array.from(starts) };
-}
-
-function errorOf(call: () => unknown): SoapfilmError {
-  try {
-    call();
-  } catch (error) {
-    if (error instanceof SoapfilmError) return error;
-    throw error;
-  }
-  throw new Error('nothing was thrown');
 }
 
 const kTriangle = '1\n3\n3\n0 0 0\n1 0 0\n0 1 0\n';

@@ -6,7 +6,15 @@ import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { Worker } from 'node:worker_threads';
-import { load, SoapfilmError, spanLoops, type LoopSet, type Span, type SpanOptions } from 'soapfilm';
+import {
+  load,
+  SoapfilmError,
+  spanLoops,
+  type LoadOptions,
+  type LoopSet,
+  type Span,
+  type SpanOptions,
+} from 'soapfilm';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { errorOf, rejectionOf } from '../support/errors.js';
 import { Fault, faultyCore } from '../support/faulty_core.js';
@@ -51,13 +59,13 @@ describe('before load', () => {
     expect(errorOf(() => spanLoops(kLoops)).code).toBe('not-loaded');
   });
 
-  const bad: [string, () => Promise<Parameters<typeof load>[0]>][] = [
-    ['a file that does not exist', async () => ({ wasm: `${file}.none` })],
-    ['a URL that is not found', async () => ({ wasm: new URL(`${address}/none`) })],
-    ['a file that is not wasm', async () => ({ wasm: import.meta.filename })],
-    ['bytes that are not wasm', async () => ({ wasm: new Uint8Array(8) })],
+  const bad: [string, () => LoadOptions | Promise<LoadOptions>][] = [
+    ['a file that does not exist', () => ({ wasm: `${file}.none` })],
+    ['a URL that is not found', () => ({ wasm: new URL(`${address}/none`) })],
+    ['a file that is not wasm', () => ({ wasm: import.meta.filename })],
+    ['bytes that are not wasm', () => ({ wasm: new Uint8Array(8) })],
     ['a response that is an error', async () => ({ wasm: await fetch(`${address}/none`) })],
-    ['a module without memory', async () => ({ wasm: Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0) })],
+    ['a module without memory', () => ({ wasm: Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0) })],
   ];
   test.each(bad)('load: %s is load-failed, with a cause or in words', async (_, options) => {
     const error = await rejectionOf(load(await options()));
