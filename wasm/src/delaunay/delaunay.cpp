@@ -6,7 +6,8 @@
 
 namespace sf {
 
-bool sortedFacets(const Tetrahedralization& cells, Work& work, std::vector<uint32_t>& facets) {
+bool sortedFacets(const Tetrahedralization& cells, Work& work, std::vector<uint32_t>& facets,
+                  ArrayView<const uint32_t> number) {
   struct Rest {  // of a facet, without its least vertex
     uint32_t b, c;
     bool operator<(const Rest& o) const { return b != o.b ? b < o.b : c < o.c; }
@@ -19,7 +20,15 @@ bool sortedFacets(const Tetrahedralization& cells, Work& work, std::vector<uint3
     return false;
   }
   std::vector<uint32_t> start(n + 1, 0);
-  cells.forEachFacet([&](uint32_t a, uint32_t b, uint32_t c) {
+  auto forEachFacet = [&](auto f) {
+    cells.forEachFacet([&](uint32_t a, uint32_t b, uint32_t c) {
+      if (number.empty())
+        f(a, b, c);
+      else
+        f(number[a], number[b], number[c]);
+    });
+  };
+  forEachFacet([&](uint32_t a, uint32_t b, uint32_t c) {
     ++count;
     ++start[std::min({a, b, c}) + 1];
   });
@@ -31,7 +40,7 @@ bool sortedFacets(const Tetrahedralization& cells, Work& work, std::vector<uint3
   }
   for (size_t i = 0; i < n; ++i) start[i + 1] += start[i];
   std::vector<Rest> rest(count);
-  cells.forEachFacet([&](uint32_t a, uint32_t b, uint32_t c) {
+  forEachFacet([&](uint32_t a, uint32_t b, uint32_t c) {
     uint32_t least = std::min({a, b, c}), most = std::max({a, b, c});
     rest[start[least]++] = {a ^ b ^ c ^ least ^ most, most};
   });

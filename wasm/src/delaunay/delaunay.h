@@ -25,7 +25,9 @@ Status delaunay(ArrayView<const Vec3> points, Work& work, Delaunay& result);
 
 /// The triangles of a tetrahedralization: each once, its vertices increasing, in lexicographic order.
 ///   facets  [3f] the result
+///   number  [n] by which each point is called instead of its index, or empty
 /// False once the work has to end.
-bool sortedFacets(const Tetrahedralization& cells, Work& work, std::vector<uint32_t>& facets);
+bool sortedFacets(const Tetrahedralization& cells, Work& work, std::vector<uint32_t>& facets,
+                  ArrayView<const uint32_t> number = {});
 
 }  // namespace sf

@@ -159,6 +159,7 @@ bool Tetrahedralization::conflicts(const Cell& t, uint32_t v) const {
   const Vec3 &a = points_[t.v[0]], &b = points_[t.v[1]], &c = points_[t.v[2]], &d = points_[t.v[3]];
   int side = insphere(a, b, c, d, points_[v]);
   if (side != 0) return side > 0;
+  hadTies_ = true;
   const Vec3* const p[5] = {&a, &b, &c, &d, &points_[v]};
   const uint32_t rank[5] = {rank_[t.v[0]], rank_[t.v[1]], rank_[t.v[2]], rank_[t.v[3]], rank_[v]};
   return insphereByRank(p, rank) > 0;

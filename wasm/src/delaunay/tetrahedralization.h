@@ -38,6 +38,9 @@ class Tetrahedralization {
   /// Dimension of the points' affine hull, 0 to 3; -1 without points.
   int dimension() const { return dimension_; }
 
+  /// Whether some choice so far was made by rank, so that other ranks could have other outcomes.
+  bool hadTies() const { return hadTies_; }
+
   /// Calls f(a, b, c, d) for each tetrahedron, positively oriented (dimension 3).
   template <class F>
   void forEachTetrahedron(F f) const {
@@ -105,6 +108,7 @@ class Tetrahedralization {
   std::vector<uint32_t> free_, cavity_, rim_;  // rim: 4 * cell in the cavity + face
   uint32_t last_ = 0;                          // where the next walk begins
   uint32_t step_ = 0;
+  mutable bool hadTies_ = false;
 };
 
 template <class F>
