@@ -18,7 +18,7 @@ console.log(`disc: ${disc.triangles.length / 3} triangles`);
 
 // Cancelling rejects the promise with the code `cancelled`; the worker can be used again.
 const controller = new AbortController();
-const long = film.spanLoops([wave(1, 0, 400), wave(1, 2, 400)], {
+const long = film.spanLoops([wave(1, 0, 60), wave(1, 2, 60)], {
   candidates: 'all',
   signal: controller.signal,
 });

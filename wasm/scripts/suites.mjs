@@ -94,7 +94,7 @@ export async function vitest(folder, env = {}) {
     capture: true,
     allowFailure: true,
     seconds: 900,
-    env: { ...env, NO_COLOR: '1' },
+    env: { ...env, NO_COLOR: '1', FORCE_COLOR: undefined },
   });
   const report = JSON.parse(readReport(file) || '{}');
   const passed = report.numPassedTests ?? 0;
@@ -114,6 +114,7 @@ export async function playwright(chromium) {
     seconds: 900,
     env: {
       NO_COLOR: '1',
+      FORCE_COLOR: undefined,
       CHROMIUM: chromium,
       SOAPFILM_PORT: String(await freePort()),
       PLAYWRIGHT_JSON_OUTPUT_FILE: file,
