@@ -110,7 +110,7 @@ double predictedTimeOfAllTriples(const LoopSet& loops) {
   double shapes = 1;
   for (uint32_t c = 0; c < loops.loopCount(); ++c)
     shapes *= double(loops.size(c)) * loops.size(c) * (c < 2 ? 1 : 2.0 * c);
-  return shapes * n * 150;
+  return shapes * n * 300;
 }
 
 }  // namespace sf
