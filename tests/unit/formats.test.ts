@@ -166,6 +166,17 @@ describe('JSON', () => {
     expect(errorOf(() => parseLoops('['.repeat(100_000))).code).toBe('bad-file');
   });
 
+  test.each([
+    ['a long string', `"${'a'.repeat(5e6)}"`, 2],
+    ['a long string of escapes', `"${'\\"'.repeat(5e6)}"`, 2],
+    ['a long string without end', `"${'\\n'.repeat(5e6)}`, 1],
+    ['an unknown escape', '"\\x"', 1],
+    ['a line break in a string', '"a\nb"', 1],
+  ])('%s: the line is still found', (_, string, line) => {
+    const error = errorOf(() => parseLoops(`{"name": ${string},\n"loops": 1, oops}`));
+    expect(error).toMatchObject({ code: 'bad-file', line });
+  });
+
   test('texts changed at random: the line found is that of the change (seed 2)', () => {
     const next = random(2);
     const text = formatLoops(randomLoops(next), 'json');

@@ -2,8 +2,7 @@
 
 const kSpace = /[ \t\r\n]*/y;
 const kToken =
-  // eslint-disable-next-line no-control-regex -- JSON forbids control characters in strings
-  /([[\]{}:,])|("(?:[^"\\\u0000-\u001f]|\\(?:["\\/bfnrt]|u[\da-fA-F]{4}))*")|(?:-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][+-]?\d+)?|true|false|null)(?![\w.+-])/y;
+  /([[\]{}:,])|(?:-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][+-]?\d+)?|true|false|null)(?![\w.+-])/y;
 
 type Awaited = 'value' | 'key' | 'colon' | 'comma';
 
@@ -28,13 +27,14 @@ export function jsonLine(
     place = kSpace.lastIndex;
     kToken.lastIndex = place;
     const match: readonly (string | undefined)[] | null = kToken.exec(text);
-    if (!match) {
+    const string = match ? undefined : stringAt(text, place);
+    if (!match && string === undefined) {
       const whole = place === text.length && awaited === 'comma' && keys.length === 0;
       return whole ? undefined : lineAt(place);
     }
-    const [, mark, string] = match;
+    const mark = match?.[1];
     const begin = place;
-    place = kToken.lastIndex;
+    place = string === undefined ? kToken.lastIndex : place + string.length;
     const top = keys[keys.length - 1];
     const closes = (mark === ']' && typeof top === 'number') || (mark === '}' && typeof top === 'string');
     if (closes && (awaited === 'comma' || empty)) {
@@ -64,5 +64,26 @@ export function jsonLine(
       return lineAt(begin);
     }
     empty = false;
+  }
+}
+
+/** The string literal that begins at an offset, if it is one; a search, since long ones defeat RegExp. */
+function stringAt(text: string, offset: number): string | undefined {
+  if (text[offset] !== '"') return undefined;
+  let end = offset;
+  let escaped: boolean;
+  do {
+    end = text.indexOf('"', end + 1);
+    if (end < 0) return undefined;
+    let before = end;
+    while (text[before - 1] === '\\') before--;
+    escaped = (end - before) % 2 === 1;
+  } while (escaped);
+  const literal = text.slice(offset, end + 1);
+  try {
+    JSON.parse(literal);
+    return literal;
+  } catch {
+    return undefined;
   }
 }
