@@ -6,6 +6,7 @@
 #include "base/predicates.h"
 #include "delaunay/delaunay.h"
 #include "loops/candidate_set.h"
+#include "loops/edge_protection.h"
 #include "loops/loop_check.h"
 #include "loops/solver.h"
 
@@ -133,12 +134,35 @@ class Spanning {
   }
 
   Outcome runDelaunay() {
-    Delaunay cells;
-    const Status status = delaunay(unit_.positions(), work_, cells);
+    ProtectedLoops safe;
+    const Status status = protectEdges(unit_, work_, safe);
     if (status != Status::Ok) return {status};
+    Problem problem;
+    problem.resultIndex = safe.origin;
+    problem.inserted = safe.inserted;
+    const uint32_t n = unit_.vertexCount();
+    problem.insertedPositions.resize(safe.inserted.size());
+    for (uint32_t v = 0; v < safe.loops.vertexCount(); ++v) {
+      const uint32_t origin = safe.origin[v];
+      if (origin >= n) {
+        const Vec3 p = safe.loops.position(v);
+        problem.insertedPositions[origin - n] = {
+            std::ldexp(p.x, exponent_), std::ldexp(p.y, exponent_), std::ldexp(p.z, exponent_)};
+      }
+      if (options_.boundaryNormals.empty()) continue;
+      // The parts of an edge have the face across the whole edge.
+      uint32_t edge = origin;
+      if (origin >= n) {
+        const InsertedVertex& inserted = safe.inserted[origin - n];
+        edge = unit_.first(inserted.loop) + inserted.edge;
+      }
+      const double* normal = &options_.boundaryNormals[3 * size_t(edge)];
+      problem.normals.insert(problem.normals.end(), normal, normal + 3);
+    }
     std::vector<uint32_t> triples;
-    if (!facetTriples(unit_, cells.facets, work_, triples)) return {work_.status()};
-    return solve(unchangedProblem(unit_, options_), std::move(triples), {}, Space::Delaunay);
+    if (!facetTriples(safe.loops, safe.facets, work_, triples)) return {work_.status()};
+    problem.loops = std::move(safe.loops);
+    return solve(problem, std::move(triples), {}, Space::Delaunay);
   }
 
   Outcome runNear() {
