@@ -6,6 +6,8 @@ const isRoot = process.getuid?.() === 0;
 
 export default defineConfig({
   testDir: 'tests/page',
+  // Files named *.test.ts are vitest's: the page's modules by themselves.
+  testMatch: '**/*.spec.ts',
   outputDir: 'test-results',
   workers: 1,
   timeout: 90_000,

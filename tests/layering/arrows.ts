@@ -116,7 +116,7 @@ function judgeOutside({ path: file, text }: SourceFile): string[] {
       const resolved = path.posix.join(path.posix.dirname(file), target);
       if (resolved.startsWith('wasm/')) return [`imports ${target} instead of 'soapfilm'`];
       const other = resolved.split('/')[0];
-      const crosses = other !== top && !(top === 'tests' && other === 'examples');
+      const crosses = other !== top && !(top === 'tests' && ['examples', 'web'].includes(other));
       return crosses ? [`imports ${target} from another part`] : [];
     }
     if (/^soapfilm(\/|$)/.test(target) && !kPublic.includes(target)) {

@@ -40,6 +40,7 @@ describe('layers', () => {
     ['a test of the core', 'tests/cpp/a.cpp', '#include "loops/span.h"'],
     ['Node in a Node file', 'wasm/ts/node_host.ts', "import { Worker } from 'node:worker_threads';"],
     ['the library by name', 'web/src/a.ts', "import { load } from 'soapfilm';\nimport * as t from 'three';"],
+    ['a test of the page', 'tests/page/a.test.ts', "import { join } from '../../web/src/a.ts';"],
     ['an import in a comment', 'wasm/ts/load.ts', "// import { load } from 'soapfilm'"],
   ];
   test.each(good)('%s: is allowed', (_, file, text) => {
