@@ -6,7 +6,7 @@ const isRoot = process.getuid?.() === 0;
 
 export default defineConfig({
   testDir: 'tests/page',
-  // Files named *.test.ts are vitest's: the page's modules by themselves.
+  // Files named *.test.ts are vitest's.
   testMatch: '**/*.spec.ts',
   outputDir: 'test-results',
   workers: 1,

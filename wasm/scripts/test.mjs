@@ -73,7 +73,6 @@ await main(async () => {
       }
       await suite('layering', 'layering', null, () => vitest('tests/layering'));
       await suite('unit', 'API in Node', 'library', () => vitest('tests/unit'));
-      await suite('page', 'modules of the page', 'library', () => vitest('tests/page'));
       await suite('pack', 'packed package', 'library', () =>
         vitest('tests/pack', { CHROMIUM: paths.chromium }),
       );
