@@ -1,4 +1,9 @@
 // The pool on a core that misbehaves: cancelling, crashes, and the end of the pool.
+import { execFile } from 'node:child_process';
+import { rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import { promisify } from 'node:util';
 import { SoapfilmError, type LoopSet, type Span, type SpanOptions } from 'soapfilm';
 import { createWorker, type CallOptions, type Film } from 'soapfilm/worker';
 import { afterEach, beforeAll, describe, expect, test } from 'vitest';
@@ -216,3 +221,28 @@ describe('pool', () => {
   });
 });
 
+test.each([
+  ['cancelled', 'controller.abort()'],
+  ['disposed', 'film.dispose()'],
+])('a call that hangs, %s: its thread is gone and the process ends', async (code, end) => {
+  const file = path.join(tmpdir(), `soapfilm-${process.pid}-${code}.wasm`);
+  await writeFile(file, bytes);
+  const script = `
+    import { createWorker } from 'soapfilm/worker';
+    const film = await createWorker({ wasm: ${JSON.stringify(file)} });
+    const controller = new AbortController();
+    const options = { weights: { area: ${Fault.hang} }, signal: controller.signal };
+    const call = film.spanLoops([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], options);
+    setTimeout(() => ${end}, 50);
+    await call.catch((error) => console.log(error.code));`;
+  try {
+    const { stdout } = await promisify(execFile)(
+      process.execPath,
+      ['--input-type=module', '-e', script],
+      { timeout: 20_000 },
+    );
+    expect(stdout).toBe(`${code}\n`);
+  } finally {
+    await rm(file);
+  }
+});
