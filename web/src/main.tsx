@@ -5,6 +5,7 @@ import { Stage } from './scene/stage.ts';
 import { openExample } from './state/files.ts';
 import { kGallery } from './state/gallery.ts';
 import { followDocument } from './state/solving.ts';
+import { forgetHistory } from './state/store.ts';
 import { exposeForInspection } from './inspection.ts';
 import { actOn } from './ui/actions.ts';
 import { App } from './ui/app.tsx';
@@ -35,6 +36,7 @@ try {
   attachKeys(stage, attachPointer(stage));
   exposeForInspection(stage);
   openExample(kGallery[0], kGallery[0].variants?.values[0], true);
+  forgetHistory();
   followDocument();
 } catch (error) {
   root.innerHTML = '';

@@ -20,9 +20,9 @@ void main() {
   vFill = fill;
   vSize = size * uPixelRatio;
   vKind = kind;
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-  // A little nearer, so that neither surface nor line cuts through the dot.
-  gl_Position.z -= 0.0015 * gl_Position.w;
+  vec4 eye = modelViewMatrix * vec4(position, 1.0);
+  // A little nearer along the line of sight, so that neither surface nor line cuts the dot.
+  gl_Position = projectionMatrix * vec4(eye.xyz * 0.994, 1.0);
   gl_PointSize = vSize + 2.0;
 }`;
 

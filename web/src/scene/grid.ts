@@ -102,7 +102,7 @@ export class PlaneGrid {
       new Vector3().fromArray(frame.normal),
     );
     this.mesh.quaternion.setFromRotationMatrix(basis);
-    this.mesh.position.set(...frame.origin);
+    this.mesh.position.fromArray(frame.origin);
     const { uniforms } = material;
     uniforms.uExtent.value = 3.2 * radius;
     uniforms.uStep.value = gridStep(radius);

@@ -46,6 +46,15 @@ export function cancelGesture(): void {
   future.value = [];
 }
 
+/** Makes the document as it is the first of the history. */
+export function forgetHistory(): void {
+  openGesture = null;
+  batch(() => {
+    past.value = [];
+    future.value = [];
+  });
+}
+
 export function undo(): void {
   step(past, future);
 }

@@ -1,6 +1,6 @@
 // The gallery and the help sheet.
 import type { ComponentChildren } from 'preact';
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { signal } from '@preact/signals';
 import { boundsOf, cross, dot, normalize, subtract, type Point } from '../shapes/vec.ts';
 import { openExample } from '../state/files.ts';
@@ -18,7 +18,7 @@ interface DialogProps {
 function Dialog({ id, title, children }: DialogProps) {
   const ref = useRef<HTMLDialogElement>(null);
   const isOpen = openDialog.value === id;
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (isOpen) ref.current?.showModal();
     else ref.current?.close();
   }, [isOpen]);

@@ -1,0 +1,167 @@
+import { readFile } from 'node:fs/promises';
+import { parseLoops } from 'soapfilm';
+import type { Page } from '@playwright/test';
+import { expect, expectSpans, hasCurves, openPage, spanned, stateOf, test } from './support.ts';
+
+const kTwoSquares = `2 8
+4
+0 0 0
+2 0 0
+2 2 0
+0 2 0
+4
+0 0 1
+2 0 1
+2 2 1
+0 2 1
+`;
+
+test.beforeEach(async ({ page }) => {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+});
+
+const openWith = (page: Page, name: string, text: string) =>
+  page.getByLabel('File of loops').setInputFiles({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+
+async function drop(page: Page, name: string, text: string): Promise<void> {
+  const transfer = await page.evaluateHandle(
+    ([fileName, content]) => {
+      const data = new DataTransfer();
+      data.items.add(new File([content], fileName));
+      return data;
+    },
+    [name, text] as const,
+  );
+  for (const type of ['dragenter', 'dragover', 'drop']) {
+    await page.dispatchEvent('body', type, { dataTransfer: transfer });
+  }
+}
+
+/** Takes an entry of the export menu and returns the file. */
+async function exported(page: Page, entry: string): Promise<{ file: string; bytes: Buffer }> {
+  await page.getByRole('button', { name: 'Export' }).click();
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: entry }).click();
+  const done = await download;
+  return { file: done.suggestedFilename(), bytes: await readFile(await done.path()) };
+}
+
+test('open by button: a .curve file is spanned', async ({ quietPage: page }) => {
+  await openPage(page);
+  const chooser = page.waitForEvent('filechooser');
+  await page.getByRole('button', { name: 'Open a file' }).click();
+  await (await chooser).setFiles({ name: 'box.curve', mimeType: 'text/plain', buffer: Buffer.from(kTwoSquares) });
+  await hasCurves(page, 2);
+  const { span, curves } = await spanned(page);
+  expect(curves[1][2]).toEqual([2, 2, 1]);
+  expectSpans(span, 2);
+  await expect(page.getByText('Opened “box.curve”: 2 curves.')).toBeVisible();
+});
+
+test('open by dropping: JSON and OBJ lines', async ({ quietPage: page }) => {
+  await openPage(page);
+  await drop(page, 'a.json', '{ "name": "Kite", "loops": [[[0,0,0],[1,0,0.2],[1,1,0],[0,1,0.2]]] }');
+  await hasCurves(page, 1);
+  expectSpans((await spanned(page)).span, 1);
+  await expect(page.getByText('Kite', { exact: true })).toBeVisible();
+  await drop(page, 'b.obj', 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 1.5 1\nl 1 2 3 4 5 1\n');
+  await expect.poll(async () => (await stateOf(page)).curves.map((curve) => curve.length)).toEqual([5]);
+  expectSpans((await spanned(page)).span, 1);
+});
+
+test('export: the OBJ holds the surface shown, the curves come back bit for bit', async ({ quietPage: page }) => {
+  await openPage(page);
+  const { span, curves } = await spanned(page);
+
+  const obj = await exported(page, 'OBJ');
+  expect(obj.file).toBe('two-facing-saddles.obj');
+  const lines = obj.bytes.toString().split('\n');
+  const numbers = (tag: string) =>
+    lines.filter((line) => line.startsWith(`${tag} `)).flatMap((line) => line.split(/\s+/).slice(1).map(Number));
+  expect(numbers('v')).toEqual(span.positions);
+  expect(numbers('f').map((index) => index - 1)).toEqual(span.triangles);
+
+  for (const [entry, extension] of [['.curve', 'curve'], ['JSON', 'json']] as const) {
+    const saved = await exported(page, entry);
+    expect(saved.file).toBe(`two-facing-saddles.${extension}`);
+    const loops = parseLoops(saved.bytes.toString());
+    expect([...loops.positions]).toEqual(curves.flat(2));
+    await openWith(page, saved.file, saved.bytes.toString());
+    expect((await spanned(page)).curves).toEqual(curves);
+  }
+});
+
+test('export: the picture is a PNG of the scene', async ({ quietPage: page }) => {
+  await openPage(page);
+  const { file, bytes } = await exported(page, 'PNG');
+  expect(file).toBe('two-facing-saddles.png');
+  expect(bytes.subarray(1, 4).toString()).toBe('PNG');
+  const canvas = await page.locator('canvas').evaluate((element) => {
+    const { width, height } = element as HTMLCanvasElement;
+    return [width, height];
+  });
+  expect([bytes.readUInt32BE(16), bytes.readUInt32BE(20)]).toEqual(canvas);
+});
+
+test('a file that is none: the error names the line, the document stays', async ({ quietPage: page }) => {
+  await openPage(page);
+  const { curves } = await stateOf(page);
+  await openWith(page, 'bad.curve', kTwoSquares.replace('2 2 0', '2 two 0'));
+  await expect(page.getByText(/Could not open “bad\.curve”.*line 5/i)).toBeVisible();
+  expect((await stateOf(page)).curves).toEqual(curves);
+  await page.getByRole('button', { name: 'Dismiss' }).click();
+  await openWith(page, 'picture.png', '\u0089PNG\r\n\u001a\n\0\0\0');
+  await expect(page.getByText('Could not open “picture.png”')).toBeVisible();
+});
+
+test('curves that cross: an error in words, the place marked', async ({ quietPage: page }) => {
+  await openPage(page);
+  const square = (dx: number) => [[dx, 0, 0], [dx + 2, 0, 0], [dx + 2, 2, 0], [dx, 2, 0]];
+  const shifted = square(1).map(([x, y, z]) => [x, y + 1, z]);
+  await openWith(page, 'crossing.json', JSON.stringify([square(0), shifted]));
+  await expect.poll(async () => (await stateOf(page)).phase).toBe('failed');
+  const state = await stateOf(page);
+  expect(state.faults).toBeGreaterThan(0);
+  expect(state.span).toBeNull();
+  await expect(page.getByRole('region', { name: 'Result' })).toContainText(state.message);
+  await expect(page.getByText('The place is marked in red.')).toBeVisible();
+  await page.keyboard.press('Control+z');
+  await spanned(page);
+});
+
+test('no surface in the space: explained, and a wider space is a press away', async ({ quietPage: page }) => {
+  await openPage(page);
+  // A tight star: its spikes reach past each other, so that Delaunay facets alone cannot fill it.
+  const star = Array.from({ length: 24 }, (_, i) => {
+    const t = (11 * 2 * Math.PI * i) / 24;
+    return [Math.cos(t), Math.sin(t), 0.02 * i];
+  });
+  await page.getByRole('radio', { name: 'Delaunay' }).check();
+  await openWith(page, 'star.json', JSON.stringify([star]));
+  await expect.poll(async () => (await stateOf(page)).phase).toBe('none');
+  const result = page.getByRole('region', { name: 'Result' });
+  await expect(result).toContainText('No surface in this space');
+  for (let i = 0; i < 2 && (await stateOf(page)).phase === 'none'; i++) {
+    await result.getByRole('button', { name: /^Try/ }).click();
+    await expect.poll(async () => (await stateOf(page)).phase).toMatch(/done|none/);
+  }
+  expectSpans((await spanned(page)).span, 1);
+});
+
+test('a heavy span: shows progress, is cancelled, and the next one works', async ({ quietPage: page }) => {
+  await openPage(page);
+  const ring = (z: number) =>
+    Array.from({ length: 46 }, (_, i) => {
+      const t = (2 * Math.PI * i) / 46;
+      return [Math.cos(t) + 0.2 * Math.cos(7 * t + z), Math.sin(t), z + 0.3 * Math.sin(3 * t + z)];
+    });
+  await page.getByRole('radio', { name: 'All', exact: true }).check();
+  await openWith(page, 'heavy.json', JSON.stringify([ring(0), ring(1.5), ring(3)]));
+  await expect(page.getByText('Spanning…').first()).toBeVisible();
+  await page.getByRole('button', { name: 'Cancel' }).first().click();
+  expect((await stateOf(page)).phase).toBe('cancelled');
+  await expect(page.getByRole('region', { name: 'Result' })).toContainText('Cancelled.');
+  await page.getByRole('radio', { name: 'Delaunay' }).check();
+  await openWith(page, 'box.curve', kTwoSquares);
+  expectSpans((await spanned(page)).span, 2);
+});
