@@ -157,10 +157,12 @@ test('a heavy span: shows progress, is cancelled, and the next one works', async
     });
   await page.getByRole('radio', { name: 'All', exact: true }).check();
   await openWith(page, 'heavy.json', JSON.stringify([ring(0), ring(1.5), ring(3)]));
-  await expect(page.getByText('Spanning…').first()).toBeVisible();
-  await page.getByRole('button', { name: 'Cancel' }).first().click();
+  const result = page.getByRole('region', { name: 'Result' });
+  await expect(result.getByRole('progressbar')).toBeVisible();
+  await expect(page.getByRole('progressbar', { name: 'Spanning, over the scene' })).toBeVisible();
+  await result.getByRole('button', { name: 'Cancel' }).click();
   expect((await stateOf(page)).phase).toBe('cancelled');
-  await expect(page.getByRole('region', { name: 'Result' })).toContainText('Cancelled.');
+  await expect(result).toContainText('Cancelled.');
   await page.getByRole('radio', { name: 'Delaunay' }).check();
   await openWith(page, 'box.curve', kTwoSquares);
   expectSpans((await spanned(page)).span, 2);

@@ -30,7 +30,10 @@ function Dialog({ id, title, children }: DialogProps) {
       ref={ref}
       class={`dialog ${id}`}
       aria-labelledby={`${id}-title`}
-      onClose={close}
+      onClose={() => {
+        // The event comes late: by then the dialog may have been opened again.
+        if (ref.current?.open === false) close();
+      }}
       onClick={(event) => {
         // On the backdrop, which counts as the dialog itself.
         if (event.target === event.currentTarget) close();
