@@ -21,7 +21,7 @@ typedef int32_t SfStatus;
 /// Arrays handed back by one call; owned by the caller until sf_result_free.
 typedef struct SfResult SfResult;
 
-/// Imported from the host as `soapfilm.sf_host_progress`; native programs define it themselves.
+/// Imported from the host as `env.sf_host_progress`; native programs define it themselves.
 /// Called about every millisecond; returns nonzero to go on, 0 to stop the call under way.
 int32_t sf_host_progress(double fraction, double bestCost, double lowerBound);
 

@@ -4,7 +4,7 @@
 
 namespace sf {
 
-/// The values cross the C ABI; wasm/ts/errors.ts maps each to the stable `code` of SoapfilmError.
+/// The values cross the C ABI; wasm/ts/messages.ts maps each to the stable `code` of SoapfilmError.
 enum class Status : int32_t {
   Ok = 0,
   NotFound = 1,        // no triangulation in the candidate space: an answer, not an error

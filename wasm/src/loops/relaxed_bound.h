@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/arena.h"
+#include "loops/angular_transform.h"
 #include "loops/domain.h"
 #include "loops/domain_table.h"
 #include "loops/pass.h"
@@ -66,7 +67,9 @@ class RelaxedBound {
   std::vector<Entry> entries_;     // of all open frames, one after the other
   size_t entriesCharged_ = 0;
   std::vector<Frame> frames_;
-  std::vector<double> best_;  // scratch of close(): by index of the slot at the access edge
+  // Scratch of close(): by index of the slot at the access edge, and of those that are finite.
+  std::vector<double> best_, innerTheta_, innerBase_;
+  AngularTransform transform_;
   std::vector<uint32_t> scratchKey_;
   double rootBound_ = kInfinity;
 };

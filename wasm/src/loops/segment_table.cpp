@@ -1,5 +1,7 @@
 #include "loops/segment_table.h"
 
+#include "loops/angular_transform.h"
+
 namespace sf {
 
 SegmentTable::~SegmentTable() {
@@ -85,14 +87,13 @@ bool SegmentTable::compute(const LoopSet& loops, const CandidateSet& set,
   std::vector<ClosedSegment> segments(count[longest]);
   forEachSegment([&](ClosedSegment s) { segments[--count[segmentLength(s)]] = s; });
 
-  struct Split {
-    double theta, value;
-  };
-  std::vector<Split> splits;
+  AngularTransform transform(measure);
+  std::vector<double> innerTheta, base, outerTheta, result;
+  std::vector<uint32_t> outer;
   for (size_t i = 0; i < segments.size(); ++i) {
     const ClosedSegment segment = segments[i];
     const uint32_t begin = set.edgeSlots[segment.edge], end = set.edgeSlots[segment.edge + 1];
-    if (!work.tick(50 + 10 * (end - begin))) return false;
+    if (!work.tick(50 + 20 * (end - begin))) return false;
     work.setFraction(double(i) / double(segments.size()));
     if (segmentLength(segment) == 1) {
       for (uint32_t s = begin; s < end; ++s) values_[2 * size_t(s) + segment.side] = 0;
@@ -100,22 +101,24 @@ bool SegmentTable::compute(const LoopSet& loops, const CandidateSet& set,
     }
     // A loop edge belongs to one triangle: closing a longer run with it would need a second.
     if (set.isLoopEdge[segment.edge]) continue;
-    splits.clear();
+    innerTheta.clear(), base.clear(), outerTheta.clear(), outer.clear();
     for (uint32_t s = begin; s < end; ++s) {
-      if (!isInside(segment, set.slotApex[s])) continue;
+      if (!isInside(segment, set.slotApex[s])) {
+        outer.push_back(s);
+        outerTheta.push_back(set.slotTheta[s]);
+        continue;
+      }
       const double w = splitValue(segment, s);
-      if (w < kInfinity) splits.push_back({set.slotTheta[s], w});
+      if (w == kInfinity) continue;
+      innerTheta.push_back(set.slotTheta[s]);
+      base.push_back(w);
     }
-    if (splits.empty()) continue;
-    for (uint32_t s = begin; s < end; ++s) {
-      if (isInside(segment, set.slotApex[s])) continue;
-      double best = kInfinity;
-      for (const Split& split : splits)
-        best =
-            std::min(best, measure.join(split.value, measure.pair(split.theta, set.slotTheta[s])));
-      values_[2 * size_t(s) + segment.side] = best;
-      if (!work.tick(uint32_t(2 * splits.size()))) return false;
-    }
+    if (base.empty()) continue;
+    result.resize(outer.size());
+    transform.apply(innerTheta.data(), base.data(), base.size(), outerTheta.data(), outer.size(),
+                    result.data());
+    for (size_t j = 0; j < outer.size(); ++j)
+      values_[2 * size_t(outer[j]) + segment.side] = result[j];
   }
   return true;
 }

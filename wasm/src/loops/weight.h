@@ -32,6 +32,7 @@ class Measure {
 
   bool isWorst() const { return worst_; }
   double cap() const { return cap_; }
+  double dihedralWeight() const { return dihedralWeight_; }
   double join(double a, double b) const { return worst_ ? (a < b ? b : a) : a + b; }
   /// Bi-triangle weight w(t, t') of eq. 2.
   double pair(double thetaA, double thetaB) const {
