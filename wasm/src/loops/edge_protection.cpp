@@ -11,8 +11,10 @@
 namespace sf {
 namespace {
 
-// A piece is split between these shares of its length.
-constexpr double kLeastShare = 0.25, kMostOfCorner = 0.9;
+// A piece is split between these shares of its length, at corners up to the second one.
+constexpr double kLeastShare = 0.3, kGreatestRadius = 0.9;
+// The share of the missing pieces, most encroached upon first, that are split in one round.
+constexpr double kWorstShare = 0.25;
 
 class Protection {
  public:
@@ -38,7 +40,8 @@ class Protection {
   bool findMissing();
   bool breakTies();
   void findEncroachers();
-  double splitDistance(uint32_t a) const;
+  void chooseWorst();
+  double shareBefore(uint32_t a) const;
   Status splitMissing();
   Status handBack(ProtectedLoops& result);
 
@@ -140,27 +143,50 @@ void Protection::findEncroachers() {
   });
 }
 
+// Leaves the pieces that are most encroached upon, and no two of them at one vertex: often one split
+// brings back the others. Star shapes take a fifth of the vertices that they would take otherwise.
+void Protection::chooseWorst() {
+  std::vector<double> cosines;
+  for (uint32_t a : missing_) cosines.push_back(encroacher_[a].cosine);
+  auto quantile = cosines.begin() + std::ptrdiff_t(double(cosines.size()) * kWorstShare);
+  std::nth_element(cosines.begin(), quantile, cosines.end());
+  double limit = *quantile + 1e-9;  // symmetric pieces are treated alike
+  auto isWorse = [&](uint32_t b, uint32_t a) {
+    double x = encroacher_[b].cosine, y = encroacher_[a].cosine;
+    return !isPresent_[b] && (x < y || (x == y && b < a));
+  };
+  auto canWait = [&](uint32_t a) {
+    return encroacher_[a].cosine > limit || isWorse(next_[a], a) || isWorse(previous_[a], a);
+  };
+  missing_.erase(std::remove_if(missing_.begin(), missing_.end(), canWait), missing_.end());
+}
+
 // Where to split the piece from a to next_[a], as a share of its length.
-double Protection::splitDistance(uint32_t a) const {
+//
+// At an acute corner where the other edge's vertices encroach, the split lies on the sphere around
+// the corner through the other edge's nearest vertex; the two pieces of equal length at the corner
+// do not encroach on each other. Anywhere else it lies next to the encroacher.
+//
+// Pieces cannot get arbitrarily short: a piece far from the vertices of other edges, compared with
+// its length, can only be encroached upon from the neighbouring edge at an acute corner. Away from
+// the corner that edge is as far as the corner, times a constant. At the corner a split on the
+// sphere makes no piece shorter than those there, unless the radius is close to the piece's length:
+// then one halving makes both edges' pieces half as long, and they are of equal length again.
+double Protection::shareBefore(uint32_t a) const {
   uint32_t b = next_[a], x = encroacher_[a].vertex;
   if (x == kNone) return 0.5;
+  auto isOn = [&](uint32_t edge, uint32_t farEnd) {
+    return isInput(x) ? x == farEnd : edge_[x] == edge;
+  };
   double size = distance(p_[a], p_[b]);
-  if (isInput(a)) {
-    uint32_t other = loops_.previous(a);
-    if (x == other || (!isInput(x) && edge_[x] == other)) {
-      double r = distance(p_[a], p_[previous_[a]]) / size;
-      return r < kMostOfCorner ? r : 0.5;
-    }
-  }
-  if (isInput(b)) {
-    uint32_t other = loops_.next(b);
-    if (x == other || (!isInput(x) && edge_[x] == b)) {
-      double r = distance(p_[b], p_[next_[b]]) / size;
-      return r < kMostOfCorner ? 1 - r : 0.5;
-    }
-  }
-  double along = dot(p_[x] - p_[a], p_[b] - p_[a]) / (size * size);
-  return std::min(std::max(along, kLeastShare), 1 - kLeastShare);
+  auto corner = [&](uint32_t at, uint32_t neighbour) {
+    double radius = distance(p_[at], p_[neighbour]) / size;
+    return radius < kGreatestRadius ? radius : 0.5;
+  };
+  if (isInput(a) && isOn(loops_.previous(a), loops_.previous(a))) return corner(a, previous_[a]);
+  if (isInput(b) && isOn(b, loops_.next(b))) return 1 - corner(b, next_[b]);
+  double foot = dot(p_[x] - p_[a], p_[b] - p_[a]) / (size * size);
+  return std::min(std::max(foot, kLeastShare), 1 - kLeastShare);
 }
 
 Vec3 Protection::positionAt(uint32_t edge, double t) const {
@@ -171,11 +197,12 @@ Vec3 Protection::positionAt(uint32_t edge, double t) const {
 
 Status Protection::splitMissing() {
   findEncroachers();
+  chooseWorst();
   uint32_t first = uint32_t(p_.size());
   size_t limit = 50 * size_t(loops_.vertexCount()) + 1000;
   if (p_.size() + missing_.size() > loops_.vertexCount() + limit) return Status::NotFound;
   std::vector<double> share(missing_.size());
-  for (size_t i = 0; i < missing_.size(); ++i) share[i] = splitDistance(missing_[i]);
+  for (size_t i = 0; i < missing_.size(); ++i) share[i] = shareBefore(missing_[i]);
   for (size_t i = 0; i < missing_.size(); ++i) {
     uint32_t a = missing_[i], b = next_[a], v = uint32_t(p_.size());
     double from = t_[a], to = isInput(b) ? 1 : t_[b], t = from + share[i] * (to - from);
