@@ -1,7 +1,6 @@
-// Two rings, one surface: a tube between them, written to an OBJ file.
+// Two rings, one surface: a tube between them.
+//   node 02-two-curves.mjs tube.obj      also writes it to a file
 import { writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import path from 'node:path';
 import { formatObj, load, spanLoops } from 'soapfilm';
 
 await load();
@@ -19,6 +18,5 @@ if (!span.found) throw new Error(span.reason);
 // n vertices and k loops always give n + 2k - 4 triangles.
 console.log(`${span.triangles.length / 3} triangles, area ${span.terms.area.toFixed(4)}`);
 
-const file = path.join(tmpdir(), 'soapfilm-two-curves.obj');
-writeFileSync(file, formatObj(span));
-console.log(`written to ${file}`);
+const file = process.argv[2];
+if (file) writeFileSync(file, formatObj(span));

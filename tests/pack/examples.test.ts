@@ -1,5 +1,5 @@
 // The examples run as a reader runs them, against the installed package.
-import { cp } from 'node:fs/promises';
+import { cp, readFile } from 'node:fs/promises';
 import path from 'node:path';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { execute, list, packAndInstall, repository, type Consumer } from './consumer.ts';
@@ -11,8 +11,8 @@ beforeAll(async () => {
 });
 afterAll(() => consumer.remove());
 
-const run = (name: string): Promise<string> =>
-  execute(process.execPath, [path.join('examples', name)], consumer.folder);
+const run = (name: string, ...args: string[]): Promise<string> =>
+  execute(process.execPath, [path.join('examples', name), ...args], consumer.folder);
 
 /** The numbers with a decimal point in a text. */
 const decimals = (text: string): number[] => (text.match(/\d+\.\d+/g) ?? []).map(Number);
@@ -39,13 +39,16 @@ describe('examples', () => {
   });
 
   test('02-two-curves: 40 triangles of less area than the discs across', async () => {
-    const output = await run('02-two-curves.mjs');
+    const output = await run('02-two-curves.mjs', 'tube.obj');
     expect(output).toContain('40 triangles');
     const [area] = decimals(output);
     // A cone's frustum through the same circles, from which 20 chords take a little.
     const frustum = Math.PI * 1.7 * Math.hypot(0.3, 0.8);
     expect(area).toBeLessThan(frustum * 1.01);
     expect(area).toBeGreaterThan(frustum * 0.95);
+    const file = await readFile(path.join(consumer.folder, 'tube.obj'), 'utf8');
+    expect(file.match(/^v /gm)).toHaveLength(40);
+    expect(file.match(/^f /gm)).toHaveLength(40);
   });
 
   test('03-weights: each setting wins by its own measure', async () => {

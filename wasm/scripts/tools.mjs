@@ -212,15 +212,6 @@ export function emscriptenEnvironment(emcc) {
   if (existsSync('/usr/share/nodejs/acorn')) {
     env.NODE_PATH = ['/usr/share/nodejs', process.env.NODE_PATH].filter(Boolean).join(':');
   }
-  // Debian's Emscripten compiles its C library into a cache that only root can write to.
-  const shared = '/usr/share/emscripten/cache';
-  if (!process.env.EM_CACHE && realpathSync(emcc).startsWith('/usr/share/emscripten')) {
-    try {
-      accessSync(shared, constants.W_OK);
-    } catch {
-      env.EM_CACHE = path.join(root, 'wasm/build/emscripten-cache');
-    }
-  }
   return env;
 }
 
