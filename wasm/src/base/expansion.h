@@ -58,22 +58,8 @@ class Expansion {
   int sign() const { return size_ == 0 ? 0 : c_[size_ - 1] > 0 ? 1 : -1; }
 
   friend Expansion operator+(const Expansion& a, const Expansion& b) {
-    if (a.size_ == 0) return b;
-    if (b.size_ == 0) return a;
     Expansion r;
-    int i = 0, j = 0;
-    auto next = [&] {
-      bool takeA = j == b.size_ || (i < a.size_ && std::fabs(a.c_[i]) < std::fabs(b.c_[j]));
-      return takeA ? a.c_[i++] : b.c_[j++];
-    };
-    double q = next();
-    for (int k = a.size_ + b.size_ - 1; k > 0; --k) {
-      Pair s = twoSum(q, next());
-      if (s.lo != 0) r.push(s.lo);
-      q = s.hi;
-    }
-    if (q != 0) r.push(q);
-    r.shorten();
+    r.setSum(a, b);
     return r;
   }
   friend Expansion operator-(const Expansion& a) {
@@ -84,9 +70,19 @@ class Expansion {
   friend Expansion operator-(const Expansion& a, const Expansion& b) { return a + -b; }
   friend Expansion operator*(const Expansion& a, const Expansion& b) {
     if (a.size_ < b.size_) return b * a;
-    Expansion r;
-    for (int j = 0; j < b.size_; ++j) r = r + a.scaled(b.c_[j]);
-    return r;
+    Expansion r[2], term;
+    int last = 0;
+    for (int j = 0; j < b.size_; ++j) {
+      if (j == 0) {
+        r[0].setScaled(a, b.c_[0]);
+        r[0].shorten();
+      } else {
+        term.setScaled(a, b.c_[j]);
+        r[1 - last].setSum(r[last], term);
+        last = 1 - last;
+      }
+    }
+    return r[last];
   }
 
  private:
@@ -99,19 +95,35 @@ class Expansion {
     SF_ASSERT(size_ < kCapacity);
     c_[size_++] = x;
   }
-  Expansion scaled(double b) const {
-    Expansion r;
-    double q = 0;
-    for (int i = 0; i < size_; ++i) {
-      Pair p = twoProduct(c_[i], b);
-      Pair s = twoSum(q, p.lo);
-      if (s.lo != 0) r.push(s.lo);
-      s = fastTwoSum(p.hi, s.hi);
-      if (s.lo != 0) r.push(s.lo);
+  void setSum(const Expansion& a, const Expansion& b) {
+    size_ = 0;
+    int i = 0, j = 0, count = a.size_ + b.size_;
+    if (count == 0) return;
+    auto next = [&] {
+      bool takeA = j == b.size_ || (i < a.size_ && std::fabs(a.c_[i]) < std::fabs(b.c_[j]));
+      return takeA ? a.c_[i++] : b.c_[j++];
+    };
+    double q = next();
+    for (int k = 1; k < count; ++k) {
+      Pair s = twoSum(q, next());
+      if (s.lo != 0) push(s.lo);
       q = s.hi;
     }
-    if (q != 0) r.push(q);
-    return r;
+    if (q != 0) push(q);
+    shorten();
+  }
+  void setScaled(const Expansion& a, double b) {
+    size_ = 0;
+    double q = 0;
+    for (int i = 0; i < a.size_; ++i) {
+      Pair p = twoProduct(a.c_[i], b);
+      Pair s = twoSum(q, p.lo);
+      if (s.lo != 0) push(s.lo);
+      s = fastTwoSum(p.hi, s.hi);
+      if (s.lo != 0) push(s.lo);
+      q = s.hi;
+    }
+    if (q != 0) push(q);
   }
   void shorten() {
     if (size_ <= kShortenAbove) return;
