@@ -121,7 +121,8 @@ test('curves that cross: an error in words, the place marked', async ({ quietPag
   await openWith(page, 'crossing.json', JSON.stringify([square(0), shifted]));
   await expect.poll(async () => (await stateOf(page)).phase).toBe('failed');
   const state = await stateOf(page);
-  expect(state.faults).toBeGreaterThan(0);
+  expect(state.faults).toBe(2);
+  expect(state.message).toContain('Curves 1 and 2 cross');
   expect(state.span).toBeNull();
   await expect(page.getByRole('region', { name: 'Result' })).toContainText(state.message);
   await expect(page.getByText('The place is marked in red.')).toBeVisible();

@@ -4,8 +4,8 @@ import { Line2 } from 'three/addons/lines/Line2.js';
 import { LineGeometry } from 'three/addons/lines/LineGeometry.js';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 import type { Curve } from '../state/document.ts';
-import type { Fault } from '../state/solving.ts';
 import type { Selection } from '../state/store.ts';
+import type { Fault } from '../state/wording.ts';
 import type { Point } from '../shapes/vec.ts';
 
 const kPointVertexShader = /* glsl */ `

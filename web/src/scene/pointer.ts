@@ -13,7 +13,8 @@ type Action =
   | { kind: 'stroke'; pointer: number; frame: Frame; stroke: Point2[]; pixel: number; press: PointerEvent }
   | { kind: 'drag'; pointer: number; frame: Frame; curve: number; vertex: number; grip: Point; moved: boolean };
 
-const kReach = { mouse: 11, pen: 14, touch: 24 };
+const kReach: Partial<Record<string, number>> = { pen: 14, touch: 24 };
+const kMouseReach = 11;
 /** A press that moves less is a click, in CSS pixels. */
 const kClickSlop = 5;
 /** Least extent of a stroke that becomes a curve, in CSS pixels. */
@@ -41,7 +42,7 @@ export function attachPointer(stage: Stage): PointerTools {
     const { from, direction } = view.ray(x, y);
     return meetPlane(frame, from, direction);
   };
-  const reach = (event: PointerEvent) => kReach[event.pointerType as keyof typeof kReach] ?? kReach.mouse;
+  const reach = (event: PointerEvent) => kReach[event.pointerType] ?? kMouseReach;
 
   const beginStroke = (event: PointerEvent): boolean => {
     const frame = stage.drawingPlane();
@@ -86,7 +87,6 @@ export function attachPointer(stage: Stage): PointerTools {
   };
 
   const onDown = (event: PointerEvent) => {
-    canvas.focus({ preventScroll: true });
     if (isGrowing.peek()) stage.skipGrowth();
     if (event.pointerType === 'touch') touches.add(event.pointerId);
     if (touches.size > 1) {

@@ -5,7 +5,7 @@ import { coordinatePlane, viewPlane, type Frame } from '../shapes/plane.ts';
 import { boundsOf, type Point } from '../shapes/vec.ts';
 import type { Curve } from '../state/document.ts';
 import { isStale, solve, surface, type Surface } from '../state/solving.ts';
-import { doc, drawing, framing, hover, isGrowing, selection, shown, tool, type Selection } from '../state/store.ts';
+import { doc, drawing, framing, hover, isGrowing, selection, shown, tool, type Drawing, type Selection } from '../state/store.ts';
 import { CurvesLayer, PenLayer } from './curves.ts';
 import { PlaneGrid } from './grid.ts';
 import { SurfaceMesh } from './surface.ts';
@@ -33,7 +33,7 @@ export class Stage {
       this.applyTheme();
     });
     this.view.onCamera(() => {
-      if (drawing.peek().plane === 'view') this.placeGrid();
+      if (drawing.peek().plane === 'view') this.replaceGrid();
     });
     effect(() => {
       this.showSurface(surface.value);
@@ -51,8 +51,7 @@ export class Stage {
       this.followSize(doc.value.curves);
     });
     effect(() => {
-      void [drawing.value, shown.value, tool.value];
-      this.placeGrid();
+      this.placeGrid(drawing.value, shown.value.grid, tool.value === 'draw');
     });
     effect(() => {
       this.view.setOrbitButtons(tool.value === 'draw');
@@ -81,24 +80,19 @@ export class Stage {
   /** What lies under a CSS pixel: a vertex within `reach` pixels, else a curve's line, else null. */
   pick(x: number, y: number, reach: number): Selection | null {
     const projected = doc.peek().curves.map((curve) => curve.map((point) => this.view.project(point)));
-    let best: Selection | null = null;
-    let nearest = reach;
-    projected.forEach((points, curve) => {
-      points.forEach((p, vertex) => {
-        const distance = Math.hypot(p.x - x, p.y - y);
-        if (p.visible && distance < nearest) [best, nearest] = [{ curve, vertex }, distance];
-      });
-    });
-    if (best !== null) return best;
-    nearest = reach * 0.6;
-    projected.forEach((points, curve) => {
-      points.forEach((a, i) => {
+    const vertices = projected.flatMap((points, curve) =>
+      points.map((p, vertex) => ({ at: { curve, vertex }, distance: p.visible ? Math.hypot(p.x - x, p.y - y) : Infinity })),
+    );
+    const vertex = nearest(vertices, reach);
+    if (vertex) return vertex;
+    const edges = projected.flatMap((points, curve) =>
+      points.map((a, i) => {
         const b = points[(i + 1) % points.length];
-        const distance = distanceToSegment(x, y, a, b);
-        if (a.visible && b.visible && distance < nearest) [best, nearest] = [{ curve, vertex: null }, distance];
-      });
-    });
-    return best;
+        const isVisible = a.visible && b.visible;
+        return { at: { curve, vertex: null }, distance: isVisible ? distanceToSegment(x, y, a, b) : Infinity };
+      }),
+    );
+    return nearest(edges, 0.6 * reach);
   }
 
   frameAll(direction?: Point, atOnce = false): void {
@@ -175,13 +169,18 @@ export class Stage {
     // Not at every step of a drag: the grid would crawl.
     if (ratio < 1.3 && ratio > 0.5) return;
     this.view.radius = radius;
-    this.placeGrid();
+    this.replaceGrid();
   }
 
-  private placeGrid(): void {
-    this.grid.mesh.visible = shown.peek().grid || tool.peek() === 'draw';
-    this.grid.place(drawing.peek().plane, this.drawingPlane(), this.view.radius, tool.peek() === 'draw');
+  private placeGrid({ plane }: Drawing, isShown: boolean, isDrawing: boolean): void {
+    this.grid.mesh.visible = isShown || isDrawing;
+    this.grid.place(plane, this.drawingPlane(), this.view.radius, isDrawing);
     this.view.invalidate();
+  }
+
+  /** As the state is now, after something that no signal tells of. */
+  private replaceGrid(): void {
+    this.placeGrid(drawing.peek(), shown.peek().grid, tool.peek() === 'draw');
   }
 
   private applyTheme(): void {
@@ -192,6 +191,12 @@ export class Stage {
     this.grid.setColors(this.theme.grid);
     this.drawCurves();
   }
+}
+
+function nearest(candidates: readonly { at: Selection; distance: number }[], reach: number): Selection | null {
+  let best: { at: Selection | null; distance: number } = { at: null, distance: reach };
+  for (const candidate of candidates) if (candidate.distance < best.distance) best = candidate;
+  return best.at;
 }
 
 function distanceToSegment(x: number, y: number, a: { x: number; y: number }, b: { x: number; y: number }): number {

@@ -93,15 +93,31 @@ export function apply(document: Document, command: Command): Document {
     case 'open':
       return { name: command.name, curves: command.curves, settings: command.settings ?? settings };
     case 'set':
-      return { ...document, settings: { ...settings, ...command.settings } };
+      return withSettings(document, { ...settings, ...command.settings });
   }
 }
 
-export function presetOf(weights: RelativeWeights): Preset | undefined {
-  return kPresets.find(
-    ({ weights: w }) =>
-      w.area === weights.area && w.perimeter === weights.perimeter && w.dihedral === weights.dihedral,
+function withSettings(document: Document, next: Settings): Document {
+  const { weights, objective, candidates } = document.settings;
+  const isSame = areEqual(weights, next.weights) && objective === next.objective && candidates === next.candidates;
+  return isSame ? document : { ...document, settings: next };
+}
+
+const areEqual = (a: RelativeWeights, b: RelativeWeights): boolean =>
+  a.area === b.area && a.perimeter === b.perimeter && a.dihedral === b.dihedral;
+
+/** Whether two documents differ in where their vertices lie, and in nothing else. */
+export function isReshaped(before: Document, after: Document): boolean {
+  return (
+    before.settings === after.settings &&
+    before.name === after.name &&
+    before.curves.length === after.curves.length &&
+    before.curves.every((curve, c) => curve.length === after.curves[c].length)
   );
+}
+
+export function presetOf(weights: RelativeWeights): Preset | undefined {
+  return kPresets.find((preset) => areEqual(preset.weights, weights));
 }
 
 export function toLoopSet(curves: readonly Curve[]): LoopSet {

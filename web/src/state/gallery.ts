@@ -36,7 +36,7 @@ function octahedronSaddles(k: number): Point[][] {
   const count = [32, 24, 16, 10, 8][k - 2];
   return kCorners.slice(0, k).map(([out, u, v]) =>
     closed(count, (t) => {
-      const [x, y, z] = [0.62 * Math.cos(t), 0.62 * Math.sin(t), 1.25 + 0.14 * Math.cos(2 * t)];
+      const [x, y, z] = [0.62 * Math.cos(t), 0.62 * Math.sin(t), 1.25 + 0.18 * Math.cos(2 * t)];
       return [
         x * u[0] + y * v[0] + z * out[0],
         x * u[1] + y * v[1] + z * out[1],

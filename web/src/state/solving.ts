@@ -2,15 +2,9 @@
 import { batch, computed, effect, signal } from '@preact/signals';
 import { SoapfilmError, type Span, type SpaceUsed } from 'soapfilm';
 import { createWorker } from 'soapfilm/worker';
-import { spanOptions, toLoopSet, type Curve, type Document } from './document.ts';
+import { isReshaped, spanOptions, toLoopSet, type Document } from './document.ts';
 import { doc } from './store.ts';
-
-/** A loop of the document, one of its vertices, or the edge from that vertex to the next. */
-export interface Fault {
-  readonly curve: number;
-  readonly vertex?: number;
-  readonly isEdge: boolean;
-}
+import { describeFailure, type Failure } from './wording.ts';
 
 export type Solve =
   | { readonly phase: 'idle' }
@@ -24,7 +18,7 @@ export type Solve =
   | { readonly phase: 'done' }
   | { readonly phase: 'none'; readonly reason: string; readonly candidates: SpaceUsed }
   | { readonly phase: 'cancelled' }
-  | { readonly phase: 'failed'; readonly code: string; readonly message: string; readonly faults: readonly Fault[] };
+  | ({ readonly phase: 'failed' } & Failure);
 
 /** A surface, what it spans, and how it should come into view. */
 export interface Surface {
@@ -114,7 +108,9 @@ async function run(of: Document, live: boolean): Promise<void> {
     lastSeconds = (performance.now() - since) / 1000;
     batch(() => {
       if (outcome.found) {
-        surface.value = { span: outcome, of, entrance: live ? 'at-once' : 'grow' };
+        const before = surface.peek()?.of;
+        const isModest = live || (before !== undefined && isReshaped(before, of));
+        surface.value = { span: outcome, of, entrance: isModest ? 'at-once' : 'grow' };
         solve.value = { phase: 'done' };
       } else {
         surface.value = null;
@@ -128,7 +124,7 @@ async function run(of: Document, live: boolean): Promise<void> {
     if (error instanceof SoapfilmError && error.code === 'load-failed') film = null;
     batch(() => {
       surface.value = null;
-      solve.value = failure(error, of.curves);
+      solve.value = { phase: 'failed', ...describeFailure(error, of.curves) };
     });
   }
   if (auto.peek() && isDue()) schedule();
@@ -146,21 +142,6 @@ function schedule(): void {
     if (isLive && (running !== null || lastSeconds > kLiveSeconds)) return;
     startSpan();
   }, isLive ? 0 : kSettle);
-}
-
-function failure(error: unknown, curves: readonly Curve[]): Solve {
-  if (!(error instanceof SoapfilmError)) {
-    return { phase: 'failed', code: 'crashed', message: String(error), faults: [] };
-  }
-  const isEdge = error.code === 'loops-intersect';
-  const faults: Fault[] = [];
-  const note = (curve: number | undefined, vertex: number | undefined) => {
-    if (curve === undefined || !(curve in curves)) return;
-    faults.push(vertex === undefined ? { curve, isEdge } : { curve, vertex, isEdge });
-  };
-  note(error.loop, error.vertex);
-  note(error.otherLoop, error.otherVertex);
-  return { phase: 'failed', code: error.code, message: error.message, faults };
 }
 
 /** Spans the document whenever it changes, from now on. */

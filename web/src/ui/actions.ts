@@ -51,12 +51,12 @@ export function stepVertex(step: 1 | -1): void {
 
 /** Moves the chosen vertex along the screen's axes, in hundredths of what is in view. */
 export function nudge(right: number, up: number): boolean {
-  const chosen = selection.peek();
-  if (stage === null || chosen?.vertex == null) return false;
-  const frame = stage.dragPlane(doc.peek().curves[chosen.curve][chosen.vertex]);
+  const { curve, vertex } = selection.peek() ?? { curve: 0, vertex: null };
+  if (stage === null || vertex === null) return false;
+  const from = doc.peek().curves[curve][vertex];
+  const frame = stage.dragPlane(from);
   const step = 0.02 * stage.view.radius;
-  const from = doc.peek().curves[chosen.curve][chosen.vertex];
   const to = add(from, add(scale(frame.u, right * step), scale(frame.v, up * step)));
-  dispatch({ type: 'move-vertex', curve: chosen.curve, vertex: chosen.vertex, to });
+  dispatch({ type: 'move-vertex', curve, vertex, to });
   return true;
 }

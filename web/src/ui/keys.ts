@@ -13,7 +13,7 @@ const kPlanes: readonly PlaneKind[] = ['xy', 'yz', 'zx', 'view'];
 const kTurn = Math.PI / 24;
 
 export function attachKeys(stage: Stage, pointer: PointerTools): void {
-  const plain: Record<string, () => void> = {
+  const plain: Partial<Record<string, () => void>> = {
     v: () => (tool.value = 'select'),
     d: () => (tool.value = 'draw'),
     a: addCircle,
@@ -36,7 +36,7 @@ export function attachKeys(stage: Stage, pointer: PointerTools): void {
   kPlanes.forEach((plane, i) => {
     plain[String(i + 1)] = () => (drawing.value = { ...drawing.peek(), plane });
   });
-  const withControl: Record<string, () => void> = { z: undo, y: redo, o: chooseFile, s: saveSurface };
+  const withControl: Partial<Record<string, () => void>> = { z: undo, y: redo, o: chooseFile, s: saveSurface };
 
   window.addEventListener('keydown', (event) => {
     if (event.defaultPrevented || event.altKey || openDialog.peek() !== null || isTyping(event)) return;
@@ -56,13 +56,13 @@ export function attachKeys(stage: Stage, pointer: PointerTools): void {
 
 function onArrow(stage: Stage, event: KeyboardEvent): boolean {
   const far = event.shiftKey ? 10 : 1;
-  const moves: Record<string, readonly [right: number, up: number]> = {
+  const moves: Partial<Record<string, readonly [right: number, up: number]>> = {
     ArrowLeft: [-1, 0],
     ArrowRight: [1, 0],
     ArrowUp: [0, 1],
     ArrowDown: [0, -1],
   };
-  const move = Object.hasOwn(moves, event.key) ? moves[event.key] : undefined;
+  const move = moves[event.key];
   if (move) {
     if (!nudge(far * move[0], far * move[1])) stage.view.orbit(kTurn * move[0], -kTurn * move[1]);
     return true;

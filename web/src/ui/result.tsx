@@ -48,10 +48,24 @@ function Running({ state }: { state: Extract<Solve, { phase: 'running' }> }) {
 }
 
 function Failed({ state }: { state: Extract<Solve, { phase: 'failed' }> }) {
+  const isTooMuch =
+    ['too-large', 'out-of-memory', 'crashed'].includes(state.code) && doc.value.settings.candidates !== 'delaunay';
   return (
     <div class="message error">
       <p>{state.message}</p>
       {state.faults.length > 0 && <p class="muted">The place is marked in red.</p>}
+      {isTooMuch && (
+        <button
+          type="button"
+          class="button"
+          onClick={() => {
+            dispatch({ type: 'set', settings: { candidates: 'delaunay' } });
+            startSpan();
+          }}
+        >
+          Take Delaunay triangles
+        </button>
+      )}
     </div>
   );
 }
