@@ -68,23 +68,6 @@ void nearestVertices(const LoopSet& loops, const std::vector<uint32_t>& start,
   if (near.size() > reach) near.resize(reach);
 }
 
-/// Unit vectors that span the plane across an edge: theta is measured from `x` towards `y`.
-struct Frame {
-  Vec3 x, y;
-};
-
-Frame frameAcross(Vec3 along) {
-  const double l = length(along);
-  const Vec3 d = l > 0 ? (1 / l) * along : Vec3{1, 0, 0};
-  const double ax = std::fabs(d.x), ay = std::fabs(d.y), az = std::fabs(d.z);
-  const Vec3 least = ax <= ay && ax <= az ? Vec3{1, 0, 0}
-                     : ay <= az           ? Vec3{0, 1, 0}
-                                          : Vec3{0, 0, 1};
-  Vec3 x = cross(d, least);
-  x = (1 / length(x)) * x;
-  return {x, cross(d, x)};
-}
-
 void weighTriangles(const LoopSet& loops, const TriangleWeights& w, CandidateSet& set) {
   const size_t c = set.size();
   set.weight.assign(c, 0);

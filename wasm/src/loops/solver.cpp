@@ -105,7 +105,7 @@ bool solveSurface(const LoopSet& loops, const CandidateSet& set, double dihedral
 
 double predictedTimeOfAllTriples(const LoopSet& loops) {
   const double n = loops.vertexCount();
-  if (loops.loopCount() == 1) return n * n * n * n / 12 + 100 * n * n * n;
+  if (loops.loopCount() == 1) return 12 * n * n * n;
   // Domain shapes: the ends of a segment on each loop, its direction, and the order of the loops.
   double shapes = 1;
   for (uint32_t c = 0; c < loops.loopCount(); ++c)

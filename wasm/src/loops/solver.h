@@ -12,6 +12,7 @@ namespace sf {
 struct Surface {
   bool found = false;
   SplitOrder order;       // its triangles, each but the first beside an earlier one
+  bool optimal = true;    // proven
   double lowerBound = 0;  // of the objective, proven
   uint64_t domains = 0, minimalSets = 0;
 };
@@ -21,9 +22,8 @@ struct Surface {
 bool solveSurface(const LoopSet& loops, const CandidateSet& set, double dihedralWeight,
                   Objective objective, Work& work, Surface& surface);
 
-constexpr double kAngleTie = 1e-10;
-
-/// About how many nanoseconds solving over all triples takes; infinity beyond double's range.
+/// About how many nanoseconds solving over all triples takes in native code; infinity beyond
+/// double's range.
 double predictedTimeOfAllTriples(const LoopSet& loops);
 
 }  // namespace sf

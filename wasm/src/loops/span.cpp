@@ -8,6 +8,7 @@
 #include "loops/candidate_set.h"
 #include "loops/edge_protection.h"
 #include "loops/loop_check.h"
+#include "loops/polygon_solver.h"
 #include "loops/solver.h"
 
 namespace sf {
@@ -107,8 +108,13 @@ class Spanning {
     return dot(high - low, high - low);
   }
 
+  bool looksAtAngles() const {
+    return options_.dihedralWeight > 0 || options_.objective == Objective::WorstDihedral;
+  }
+
   bool allTriplesFit() const {
     const double n = loops_.vertexCount(), count = n * (n - 1) * (n - 2) / 6;
+    if (loops_.loopCount() == 1) return work_.fits(bytesForPolygon(n, looksAtAngles()));
     return count < double(kNone / 3) && work_.fits(bytesToSolve(count));
   }
   /// Candidates, and the segment table's two numbers for each of three slots.
@@ -116,11 +122,46 @@ class Spanning {
     return CandidateSet::bytesFor(candidates) + 48 * candidates;
   }
 
+  TriangleWeights triangleWeights(const Problem& problem, const std::vector<double>& own) const {
+    TriangleWeights weights;
+    weights.area = areaWeight_;
+    weights.perimeter = perimeterWeight_;
+    weights.dihedral = options_.dihedralWeight;
+    weights.normals = problem.normals;
+    weights.own = own;
+    return weights;
+  }
+
   Outcome runAll() {
     if (!allTriplesFit()) return {Status::TooLarge};
+    if (loops_.loopCount() == 1) return runPolygon();
     std::vector<uint32_t> triples;
     if (!allTriples(unit_, work_, triples)) return {work_.status()};
     return solve(unchangedProblem(unit_, options_), std::move(triples), {}, Space::All);
+  }
+
+  Outcome runPolygon() {
+    const Problem problem = unchangedProblem(unit_, options_);
+    const TriangleWeights weights = triangleWeights(problem, {});
+    PolygonSurface polygon;
+    result_.space = Space::All;
+    const double n = loops_.vertexCount();
+    result_.candidates = uint64_t(n * (n - 1) * (n - 2) / 6);
+    result_.domains = uint64_t(n * (n - 1) / 2);
+    result_.minimalSets = result_.domains;
+    if (!solvePolygon(unit_, weights, options_.objective, work_, polygon)) return {work_.status()};
+    if (!polygon.found) return {Status::NotFound};
+    CandidateSet set;
+    const size_t before = work_.used();
+    const bool built = buildCandidateSet(unit_, weights, std::move(polygon.triangles), work_, set);
+    work_.release(work_.used() - before);
+    if (!built) return {work_.status()};
+    Surface surface;
+    for (uint32_t t = 0; t < set.size(); ++t) surface.order.push_back(t);
+    surface.lowerBound = polygon.lowerBound;
+    surface.optimal = polygon.optimal;
+    handBack(problem, set, surface, {});
+    return {};
   }
 
   Outcome runGiven() {
@@ -185,12 +226,7 @@ class Spanning {
     result_.candidates = triples.size() / 3;
     const double bytes = bytesToSolve(double(result_.candidates));
     if (!work_.fits(bytes)) return {Status::TooLarge};
-    TriangleWeights weights;
-    weights.area = areaWeight_;
-    weights.perimeter = perimeterWeight_;
-    weights.dihedral = options_.dihedralWeight;
-    weights.normals = problem.normals;
-    weights.own = own;
+    const TriangleWeights weights = triangleWeights(problem, own);
     CandidateSet set;
     Surface surface;
     const size_t before = work_.used();
@@ -316,7 +352,7 @@ void Spanning::handBack(const Problem& problem, const CandidateSet& set, const S
   std::vector<uint32_t> triangles = surface.order;
   std::sort(triangles.begin(), triangles.end());
   result_.found = true;
-  result_.optimal = true;
+  result_.optimal = surface.optimal;
   windConsistently(problem.loops, set, triangles, result_.triangles);
   for (uint32_t& v : result_.triangles) v = problem.resultIndex[v];
   result_.order.clear();
@@ -330,10 +366,9 @@ void Spanning::handBack(const Problem& problem, const CandidateSet& set, const S
   result_.starts.assign(problem.loops.starts().begin(), problem.loops.starts().end());
   result_.loopVertices = problem.resultIndex;
   measure(problem, set, triangles, own);
-  // Sums in another order differ in the last digits; the bound may not exceed the cost for that.
-  result_.lowerBound = options_.objective == Objective::Sum
-                           ? result_.cost
-                           : std::min(result_.cost, surface.lowerBound);
+  // Sums in another order differ in the last digits: that alone makes no gap.
+  const bool exactSum = surface.optimal && options_.objective == Objective::Sum;
+  result_.lowerBound = exactSum ? result_.cost : std::min(result_.cost, surface.lowerBound);
 }
 
 }  // namespace

@@ -8,9 +8,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/vec.h"
+
 namespace sf {
 
 constexpr double kPi = 3.14159265358979323846;
+/// Worst angles that differ by less count as tied.
+constexpr double kAngleTie = 1e-10;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Dihedral angle (0 flat, pi folded) of two triangles that stand around their common edge at the
@@ -18,6 +22,24 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// oriented normals.
 inline double dihedralAngle(double thetaA, double thetaB) {
   return std::fabs(kPi - std::fabs(thetaA - thetaB));
+}
+
+/// Unit vectors that span the plane across an edge: angles around it go from `x` towards `y`.
+struct Frame {
+  Vec3 x, y;
+};
+
+/// Some frame across a direction, which need not be a unit vector.
+inline Frame frameAcross(Vec3 along) {
+  const double l = length(along);
+  const Vec3 d = l > 0 ? (1 / l) * along : Vec3{1, 0, 0};
+  const double ax = std::fabs(d.x), ay = std::fabs(d.y), az = std::fabs(d.z);
+  const Vec3 least = ax <= ay && ax <= az ? Vec3{1, 0, 0}
+                     : ay <= az           ? Vec3{0, 1, 0}
+                                          : Vec3{0, 0, 1};
+  Vec3 x = cross(d, least);
+  x = (1 / length(x)) * x;
+  return {x, cross(d, x)};
 }
 
 /// What one pass of the solver minimises: a sum, or a maximum of angles.
