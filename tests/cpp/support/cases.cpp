@@ -54,18 +54,18 @@ Curves planarLoops(const std::vector<uint32_t>& sizes, Random& random) {
   return curves;
 }
 
-/// Regular rings along an axis or at the corners of a triangle: many tied surfaces.
+/// Regular rings along an axis or at the corners of a regular polygon: many tied surfaces.
 Curves rings(const std::vector<uint32_t>& sizes, Random& random) {
   Curves curves;
   bool stacked = random.chance(0.5);
   double gap = random.range(0.5, 2);
   for (uint32_t c = 0; c < sizes.size(); ++c) {
-    double t = 2 * kPi * c / 3;
+    double t = 2 * kPi * c / double(std::max<size_t>(3, sizes.size()));
     Vec3 outward{std::cos(t), std::sin(t), 0};
     if (stacked)
       curves.push_back(circle(sizes[c], 1, {0, 0, gap * c}));
     else
-      curves.push_back(circle(sizes[c], 0.5, (0.8 + gap) * outward, outward));
+      curves.push_back(circle(sizes[c], 0.5, (1 + gap) * outward, outward));
   }
   return curves;
 }
