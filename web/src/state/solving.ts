@@ -64,14 +64,17 @@ export function startSpan(): void {
   cancelRunning();
   const of = doc.peek();
   begun = of;
-  if (of.curves.length === 0) {
-    batch(() => {
-      solve.value = { phase: 'idle' };
-      surface.value = null;
-    });
-    return;
-  }
-  void run(of, isLive);
+  batch(() => {
+    const before = surface.peek()?.of;
+    if (before && !isKin(before, of)) surface.value = null;
+    if (of.curves.length === 0) solve.value = { phase: 'idle' };
+    else void run(of, isLive);
+  });
+}
+
+/** Whether a surface of one document, faded, can stand in for that of another for a while. */
+function isKin(before: Document, after: Document): boolean {
+  return isReshaped(before, after) || before.curves.some((curve) => after.curves.includes(curve));
 }
 
 /** Ends the running span; the surface shown stays. */

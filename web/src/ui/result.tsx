@@ -1,4 +1,5 @@
 // What came of the span: cost and figures, or in words why there is none.
+import { useEffect, useState } from 'preact/hooks';
 import type { CandidateSpace, Span, SpaceUsed } from 'soapfilm';
 import { cancelSpan, isStale, solve, startSpan, surface, type Solve } from '../state/solving.ts';
 import { dispatch, doc } from '../state/store.ts';
@@ -33,11 +34,14 @@ export function Result() {
 }
 
 function Running({ state }: { state: Extract<Solve, { phase: 'running' }> }) {
+  const elapsed = useSecondsSince(state.since);
   return (
     <div class="running">
       <div class="running-head">
         <span>Spanning…</span>
-        <span class="count">{Math.floor(100 * state.fraction)} %</span>
+        <span class="count">
+          {Math.floor(100 * state.fraction)} %{elapsed > 0 && `, ${elapsed} s`}
+        </span>
         <button type="button" class="button small" onClick={cancelSpan}>
           Cancel
         </button>
@@ -45,6 +49,20 @@ function Running({ state }: { state: Extract<Solve, { phase: 'running' }> }) {
       <progress aria-label="Spanning" max={1} value={state.fraction} />
     </div>
   );
+}
+
+/** Whole seconds since a `performance.now()`, counting on. */
+function useSecondsSince(since: number): number {
+  const [now, setNow] = useState(since);
+  useEffect(() => {
+    const timer = setInterval(() => {
+      setNow(performance.now());
+    }, 250);
+    return () => {
+      clearInterval(timer);
+    };
+  }, [since]);
+  return Math.max(0, Math.floor((now - since) / 1000));
 }
 
 function Failed({ state }: { state: Extract<Solve, { phase: 'failed' }> }) {
