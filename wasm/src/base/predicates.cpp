@@ -41,17 +41,13 @@ int signOf(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 double max2(double a, double b) { return a > b ? a : b; }
 
 // Double-double arithmetic.
-struct Double2 : Pair {
-  Double2(Pair p) : Pair(p) {}
-};
-Double2 operator+(Double2 a, Double2 b) {
+Pair operator+(Pair a, Pair b) {
   Pair s = twoSum(a.hi, b.hi), t = twoSum(a.lo, b.lo);
   s = fastTwoSum(s.hi, s.lo + t.hi);
   return fastTwoSum(s.hi, s.lo + t.lo);
 }
-Double2 operator-(Double2 a) { return Pair{-a.hi, -a.lo}; }
-Double2 operator-(Double2 a, Double2 b) { return a + -b; }
-Double2 operator*(Double2 a, Double2 b) {
+Pair operator-(Pair a, Pair b) { return a + Pair{-b.hi, -b.lo}; }
+Pair operator*(Pair a, Pair b) {
   Pair p = twoProduct(a.hi, b.hi);
   return fastTwoSum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
 }
@@ -61,9 +57,9 @@ struct InDouble {
   using Number = double;
   static double difference(double a, double b) { return a - b; }
 };
-struct InDouble2 {
-  using Number = Double2;
-  static Double2 difference(double a, double b) { return twoDiff(a, b); }
+struct InPair {
+  using Number = Pair;
+  static Pair difference(double a, double b) { return twoDiff(a, b); }
 };
 struct InExpansion {
   using Number = Expansion;
@@ -72,8 +68,9 @@ struct InExpansion {
   }
 };
 
+// Always inline: GCC 12 at -O1 otherwise drops the stores to arguments passed by reference.
 template <class N>
-N minor2(const N& ax, const N& ay, const N& bx, const N& by) {
+__attribute__((always_inline)) inline N minor2(const N& ax, const N& ay, const N& bx, const N& by) {
   return ax * by - bx * ay;
 }
 
@@ -153,7 +150,7 @@ __attribute__((noinline)) int orient3dCarefully(const Vec3& a, const Vec3& b, co
       m > 0x1p-200)
     return signOf(det);
   double bound = kOrient3dBound * kPairOverDouble * extent.x * extent.y * extent.z + kTiny;
-  double det2 = orient3dIn<InDouble2>(a, b, c, d).hi;
+  double det2 = orient3dIn<InPair>(a, b, c, d).hi;
   if (std::fabs(det2) > bound) return signOf(det2);
   return orient3dIn<InExpansion>(a, b, c, d).sign();
 }
@@ -167,7 +164,7 @@ __attribute__((noinline)) int insphereCarefully(const Vec3& a, const Vec3& b, co
       areMultiples(d, e, magic) && m > 0x1p-190)
     return signOf(det);
   double bound = kInsphereBound * kPairOverDouble * extent.x * extent.y * extent.z * m * m + kTiny;
-  double det2 = insphereIn<InDouble2>(a, b, c, d, e).hi;
+  double det2 = insphereIn<InPair>(a, b, c, d, e).hi;
   if (std::fabs(det2) > bound) return signOf(det2);
   return insphereIn<InExpansion>(a, b, c, d, e).sign();
 }
@@ -220,7 +217,7 @@ int incircle(double ax, double ay, double bx, double by, double cx, double cy, d
   double my = max2(max2(std::fabs(ay - dy), std::fabs(by - dy)), std::fabs(cy - dy));
   double m = max2(mx, my), bound = kIncircleBound * mx * my * m * m;
   if (std::fabs(det) > bound + kTiny) return signOf(det);
-  double det2 = incircleIn<InDouble2>(ax, ay, bx, by, cx, cy, dx, dy).hi;
+  double det2 = incircleIn<InPair>(ax, ay, bx, by, cx, cy, dx, dy).hi;
   if (std::fabs(det2) > kPairOverDouble * bound + kTiny) return signOf(det2);
   return incircleIn<InExpansion>(ax, ay, bx, by, cx, cy, dx, dy).sign();
 }
