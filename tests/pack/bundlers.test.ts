@@ -4,7 +4,7 @@ import type { AddressInfo } from 'node:net';
 import path from 'node:path';
 import { chromium, type Browser } from '@playwright/test';
 import { build as esbuild } from 'esbuild';
-import { build as vite } from 'vite';
+import { build as vite, createServer as createViteServer } from 'vite';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { list, packAndInstall, type Consumer } from './consumer.ts';
 
@@ -76,17 +76,26 @@ async function serve(folder: string, headers: Record<string, string> = {}): Prom
 }
 
 /** The title that the app gives its page, and the paths that the page asked for. */
-async function visit(server: Server): Promise<{ title: string; asked: string[] }> {
-  const { port } = server.address() as AddressInfo;
+async function visit(url: string): Promise<{ title: string; asked: string[] }> {
   const page = await browser.newPage();
   const asked: string[] = [];
   page.on('request', (request) => asked.push(new URL(request.url()).pathname));
   try {
-    await page.goto(`http://127.0.0.1:${port}/`);
+    await page.goto(url);
     await page.waitForFunction(() => document.title !== '', undefined, { timeout: 30_000 });
     return { title: await page.title(), asked };
   } finally {
     await page.close();
+  }
+}
+
+/** `visit` on a folder served as it is. */
+async function visitFolder(folder: string, headers: Record<string, string> = {}) {
+  const server = await serve(folder, headers);
+  try {
+    const { port } = server.address() as AddressInfo;
+    return await visit(`http://127.0.0.1:${port}/`);
+  } finally {
     server.close();
   }
 }
@@ -100,7 +109,7 @@ describe('bundlers', () => {
     const files = await list(path.join(root, 'dist/assets'));
     expect(files.filter((file) => /^core-.*\.wasm$/.test(file))).toHaveLength(1);
     expect(files.filter((file) => /^worker_thread-.*\.js$/.test(file))).toHaveLength(1);
-    const { title, asked } = await visit(await serve(path.join(root, 'dist')));
+    const { title, asked } = await visitFolder(path.join(root, 'dist'));
     expect(title).toBe(kTitle);
     expect(asked.some((file) => /core-.*\.wasm$/.test(file))).toBe(true);
     expect(asked.some((file) => /inline/.test(file))).toBe(false);
@@ -109,8 +118,25 @@ describe('bundlers', () => {
   test("vite: works under a policy of 'self' and 'wasm-unsafe-eval'", async () => {
     const root = path.join(consumer.folder, 'vite/dist');
     const policy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'";
-    const { title } = await visit(await serve(root, { 'content-security-policy': policy }));
+    const { title } = await visitFolder(root, { 'content-security-policy': policy });
     expect(title).toBe(kTitle);
+  });
+
+  test('vite, development: both entries work, wherever it puts the package', async () => {
+    const root = await writeApp('vite-dev', kHtml);
+    const server = await createViteServer({
+      root,
+      configFile: false,
+      logLevel: 'error',
+      server: { host: '127.0.0.1', port: 0 },
+    });
+    try {
+      await server.listen();
+      const { port } = server.httpServer?.address() as AddressInfo;
+      expect((await visit(`http://127.0.0.1:${port}/`)).title).toBe(kTitle);
+    } finally {
+      await server.close();
+    }
   });
 
   test('esbuild: loses the files and falls back to the inline copies', async () => {
@@ -123,7 +149,7 @@ describe('bundlers', () => {
       outdir: path.join(root, 'out'),
       logLevel: 'error',
     });
-    expect((await visit(await serve(root))).title).toBe(kTitle);
+    expect((await visitFolder(root)).title).toBe(kTitle);
   });
 
   test('no bundler: served as it is, with an import map', async () => {
@@ -132,7 +158,7 @@ describe('bundlers', () => {
     const html = kHtml.replace('<script', `<script type="importmap">${JSON.stringify(map)}</script><script`);
     await writeFile(path.join(consumer.folder, 'app.js'), kApp);
     await writeFile(path.join(consumer.folder, 'index.html'), html);
-    const { title, asked } = await visit(await serve(consumer.folder));
+    const { title, asked } = await visitFolder(consumer.folder);
     expect(title).toBe(kTitle);
     expect(asked).toContain('/node_modules/soapfilm/wasm/dist/core.wasm');
   });
