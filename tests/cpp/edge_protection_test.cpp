@@ -212,15 +212,17 @@ TEST_CASE("edge protection: random loops, whose edges pass close to each other")
     CAPTURE(seed);
     inserted += protect({randomLoop(20, seed)});
   }
-  // Midpoints instead of the encroachers' feet take 650 for 20 seeds; these take about 590.
+  MESSAGE("inserted into 12 random loops of 20 vertices: ", inserted);
   CHECK(inserted > 100);
-  CHECK(inserted < 450);
+  CHECK(inserted < 355);
   protect({randomLoop(60, 77)});
   protect({randomLoop(15, 5), randomLoop(15, 6), randomLoop(15, 7)});
 }
 
 TEST_CASE("edge protection: acute corners, of stars and combs") {
-  protect({star(20, 0.05, true)}, true);
+  // One vertex per corner brings back both edges, if it is as far from the corner as the next one.
+  CHECK(protect({star(20, 0.05, true)}, true) <= 40);
+  CHECK(protect({star(30, 0.05, true)}, true) <= 60);
   protect({noisy(star(20, 0.05, true), 1e-3, 4)});
   protect({star(20, 0.05, true), circle(30, 0.5, 0.05)}, true);
   Loop comb;

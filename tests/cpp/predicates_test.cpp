@@ -139,6 +139,28 @@ const Maker kMakers[] = {
          if (v.x != 0 && std::fabs(v.x) < 0x1p-200) v.x = 0;
        return p;
      }},
+    {"almost on a sphere, on a wide lattice",
+     [](std::mt19937_64& g) {
+       const double kTriples[3][3] = {{1, 4, 8}, {4, 4, 7}, {0, 0, 9}};
+       double size = double(g() % 500000);  // with products that need rounding
+       std::vector<Vec3> p(5);
+       for (Vec3& v : p) {
+         double c[3];
+         std::copy_n(kTriples[g() % 3], 3, c);
+         std::shuffle(c, c + 3, g);
+         for (double& x : c) x = x * size * (g() % 2 ? 1.0 : -1.0) + (g() % 8 ? 0 : small(g, 1));
+         v = 0x1p-25 * Vec3{c[0], c[1], c[2]};
+       }
+       return p;
+     }},
+    {"differences that underflow when multiplied",
+     [](std::mt19937_64& g) {
+       std::vector<Vec3> p(5);
+       // About 2^-214 each, so that five of them leave a few bits above the least double.
+       for (Vec3& v : p)
+         v = 0x1p-199 * (Vec3{1, 1, 1} + std::ldexp(1, -int(13 + g() % 4)) * anyPoint(g));
+       return p;
+     }},
     {"repeated points",
      [](std::mt19937_64& g) {
        std::vector<Vec3> p(5);
