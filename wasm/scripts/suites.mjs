@@ -47,6 +47,14 @@ export async function clangFormat(program) {
   return result(0, 1, `Not as clang-format has it (clang-format -i mends it):\n${files.join('\n')}\n`);
 }
 
+/** Names and suspicious code in the core, as .clang-tidy has them, with the flags of a build tree. */
+export async function clangTidy(program, tree) {
+  const sources = listFiles(['wasm/src'], (file) => file.endsWith('.cpp'));
+  const args = ['-p', tree, '--quiet', '--warnings-as-errors=*', ...sources];
+  const { code, output } = await run(program, args, { capture: true, allowFailure: true });
+  return code === 0 ? result(sources.length > 0 ? 1 : 0, 0, output) : result(0, 1, output);
+}
+
 /** A doctest program. Tests that ran before a crash count as passed, the crash as one failure. */
 export async function doctest(program, { seconds = 900, args = [] } = {}) {
   const file = reportFile(`${path.basename(program)}.xml`);

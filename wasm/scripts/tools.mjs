@@ -102,6 +102,11 @@ and run the command again in that shell, or set EMSDK to that folder.`,
     packages: ['clang-format-14'],
     optional: 'clang-format 14',
   },
+  clangTidy: {
+    find: () => findProgram('clang-tidy-14', 'clang-tidy'),
+    packages: ['clang-tidy'],
+    optional: 'clang-tidy',
+  },
   clang: {
     find: () => findProgram('clang++'),
     packages: ['clang'],
