@@ -32,7 +32,7 @@ Bounds bounds(const LoopSet& loops, const TriangleWeights& weights, Measure meas
     const Pass pass{loops, set, cost, measure, segments, work};
     {
       RelaxedBound bound(pass);
-      REQUIRE(bound.compute(Domains(loops).root(root)));
+      REQUIRE(bound.compute(Domains(loops).root(root), ~uint64_t(0)));
       ExactSolver solver(pass, bound, root);
       SplitOrder order;
       REQUIRE(solver.solve(result.exact, order));

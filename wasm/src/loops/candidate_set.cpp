@@ -178,9 +178,11 @@ bool faceAngle(const LoopSet& loops, ArrayView<const double> normals, uint32_t a
     if (loops.next(b) != a) return false;
     std::swap(a, b);
   }
-  const Vec3 face = {normals[3 * size_t(a)], normals[3 * size_t(a) + 1],
-                     normals[3 * size_t(a) + 2]};
+  Vec3 face = {normals[3 * size_t(a)], normals[3 * size_t(a) + 1], normals[3 * size_t(a) + 2]};
   if (std::isnan(face.x)) return false;
+  // Squares of very long and very short normals do not fit.
+  const double largest = std::max({std::fabs(face.x), std::fabs(face.y), std::fabs(face.z)});
+  face = {face.x / largest, face.y / largest, face.z / largest};
   const Vec3 p = loops.position(a);
   angle = angleBetween(cross(loops.position(b) - p, loops.position(apex) - p), face);
   return true;
@@ -278,6 +280,20 @@ bool buildCandidateSet(const LoopSet& loops, const TriangleWeights& weights,
   weighTriangles(loops, weights, set);
   buildIncidence(loops, set);
   return work.tick(uint32_t(std::min<size_t>(300 * c, 1u << 30)));
+}
+
+bool buildSubset(const LoopSet& loops, const CandidateSet& set, ArrayView<const uint32_t> kept,
+                 Work& work, CandidateSet& subset) {
+  if (!work.charge(size_t(CandidateSet::bytesFor(double(kept.size()))))) return false;
+  subset = {};
+  for (const uint32_t t : kept) {
+    const uint32_t* v = &set.triangles[3 * size_t(t)];
+    subset.triangles.insert(subset.triangles.end(), v, v + 3);
+    subset.weight.push_back(set.weight[t]);
+    if (!set.boundaryAngle.empty()) subset.boundaryAngle.push_back(set.boundaryAngle[t]);
+  }
+  buildIncidence(loops, subset);
+  return work.tick(uint32_t(std::min<size_t>(300 * kept.size(), 1u << 30)));
 }
 
 }  // namespace sf

@@ -84,4 +84,9 @@ Outcome givenTriples(const LoopSet& loops, ArrayView<const uint32_t> triangles, 
 bool buildCandidateSet(const LoopSet& loops, const TriangleWeights& weights,
                        std::vector<uint32_t> triples, Work& work, CandidateSet& set);
 
+/// The triangles `kept` of a set, in that order, with their weights. Charges and time as for
+/// buildCandidateSet.
+bool buildSubset(const LoopSet& loops, const CandidateSet& set, ArrayView<const uint32_t> kept,
+                 Work& work, CandidateSet& subset);
+
 }  // namespace sf

@@ -1,6 +1,7 @@
 #include "loops/relaxed_bound.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sf {
 
@@ -54,7 +55,7 @@ bool RelaxedBound::open(uint32_t domain) {
     if (pass_.triangleCost[set.slotTriangle[slot]] == kInfinity) continue;
     domains_.forEachSplit(shape, set.slotApex[slot],
                           [&](const Split& split) { return addEntry(split, slot); });
-    if (!pass_.work.going()) return false;
+    if (!pass_.work.going() || splitsLeft_ == 0) return false;
   }
   if (values_.size() < table_.size()) values_.resize(table_.size(), nullptr);
   return true;
@@ -63,7 +64,8 @@ bool RelaxedBound::open(uint32_t domain) {
 bool RelaxedBound::addEntry(const Split& split, uint32_t slot) {
   const CandidateSet& set = pass_.set;
   const uint32_t t = set.slotTriangle[slot];
-  if (!pass_.work.tick(100)) return false;
+  if (!pass_.work.tick(100) || splitsLeft_ == 0) return false;
+  --splitsLeft_;
   Entry entry{slot, {kNone, kNone}, {0, 0}, pass_.triangleCost[t]};
   for (uint32_t i = 0; i < split.partCount; ++i) {
     const SplitPart& part = split.part[i];
@@ -131,15 +133,15 @@ bool RelaxedBound::close(const Frame& frame) {
   return true;
 }
 
-bool RelaxedBound::compute(ArrayView<const uint32_t> root) {
+bool RelaxedBound::compute(ArrayView<const uint32_t> root, uint64_t maxSplits) {
+  splitsLeft_ = maxSplits;
+  const double expectedSplits = std::min(double(maxSplits), 1e7);
   computeLeastPairs();
-  table_.insert(root);
-  if (!open(0)) return false;
-  const size_t rootEntries = entries_.size();
+  if (table_.insert(root) == kNone || !open(0)) return false;
   while (!frames_.empty()) {
     Frame& frame = frames_.back();
-    // Splits of the root are the only ones whose number is known before the work is done.
-    if (frames_.size() == 1) pass_.work.setFraction(double(frame.cursor) / double(rootEntries + 1));
+    // How much is left shows only at the end; this comes to 0.95 for an ordinary number of splits.
+    pass_.work.setFraction(1 - std::exp(-3 * double(maxSplits - splitsLeft_) / expectedSplits));
     uint32_t missing = kNone;
     while (frame.cursor < entries_.size() && missing == kNone) {
       const Entry& entry = entries_[frame.cursor];

@@ -20,9 +20,10 @@ class RelaxedBound {
   explicit RelaxedBound(const Pass& pass);
   ~RelaxedBound();
 
-  /// Computes R for the root and all that it can split into; false when the work ended.
+  /// Computes R for the root and all that it can split into; false when the work ended, or after
+  /// `maxSplits` splits of domains.
   /// Explicit stack. Memory: one double for each domain shape and triangle on its access edge.
-  bool compute(ArrayView<const uint32_t> root);
+  bool compute(ArrayView<const uint32_t> root, uint64_t maxSplits);
 
   /// R of the root: no surface costs less. Infinity: there is none.
   double rootBound() const { return rootBound_; }
@@ -34,9 +35,6 @@ class RelaxedBound {
   /// The least bi-triangle weight that the slot's triangle can have with another at that edge.
   double leastPair(uint32_t slot) const { return leastPair_[slot]; }
 
-  /// Of a domain under work.
-  static constexpr size_t kBytesPerSplit = 40;
-
   uint64_t domainCount() const { return table_.size(); }
 
  private:
@@ -47,7 +45,6 @@ class RelaxedBound {
     uint32_t index[2];  // of the triangle at the part's access edge
     double cost;        // w(t) joined with the costs of the parts that are not domains
   };
-  static_assert(sizeof(Entry) <= kBytesPerSplit);
   struct Frame {
     uint32_t domain;
     size_t firstEntry, cursor;
@@ -72,6 +69,7 @@ class RelaxedBound {
   AngularTransform transform_;
   std::vector<uint32_t> scratchKey_;
   double rootBound_ = kInfinity;
+  uint64_t splitsLeft_ = 0;
 };
 
 }  // namespace sf

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loops/fan_bound.h"
+
 namespace sf {
 namespace {
 
@@ -17,89 +19,172 @@ uint32_t chooseRoot(const LoopSet& loops, const CandidateSet& set) {
   return root;
 }
 
-/// Whether the relaxed bound can be tried: at the root alone, each triangle with its apex on the
-/// same loop splits the holes in 2^(k-1) ways.
-bool holesFit(const LoopSet& loops, const CandidateSet& set, uint32_t root, const Work& work) {
-  const uint32_t edge = set.loopEdges[root];
-  double splits = 0;
-  for (uint32_t s = set.edgeSlots[edge]; s < set.edgeSlots[edge + 1]; ++s) {
-    const bool sameLoop = loops.loopOf(set.slotApex[s]) == loops.loopOf(root);
-    if (sameLoop) splits += std::ldexp(1.0, int(std::min(loops.loopCount() - 1, 1000u)));
-  }
-  return work.fits(splits * RelaxedBound::kBytesPerSplit);
-}
+/// A pass over one set of candidates: what to minimise, and where the recursion begins.
+struct Task {
+  const LoopSet& loops;
+  const CandidateSet& set;
+  const std::vector<double>& triangleCost;
+  Measure measure;
+  Work& work;
+};
 
-/// One pass in one measure, from fraction `from` to `to` of the work. The least cost, infinity if
-/// there is no surface.
-bool runPass(const LoopSet& loops, const CandidateSet& set, const std::vector<double>& triangleCost,
-             Measure measure, uint32_t root, double from, double to, Work& work, double& cost,
-             Surface& surface) {
-  const bool single = loops.loopCount() == 1;
+/// The optimum of a task, if it was reached.
+struct Optimum {
+  bool reached = false;
+  double cost = kInfinity;  // infinity: there is no surface
+  SplitOrder order;
+};
+
+/// Candidates for each triangle of the surface above which fans are not tried.
+constexpr double kManyCandidates = 24;
+constexpr uint64_t kUnlimited = ~uint64_t(0);
+
+/// Solves a task by the domains of all its candidates, unless that takes more than `maxSplits` splits.
+/// False when the work ended.
+bool solveDirectly(const Task& task, uint64_t maxSplits, Optimum& optimum, Surface& surface) {
+  optimum = {};
+  const auto& [loops, set, triangleCost, measure, work] = task;
+  const uint32_t root = chooseRoot(loops, set);
+  if (root == kNone) {
+    optimum.reached = true;
+    return work.going();
+  }
   SegmentTable segments;
-  const double segmentShare = single ? 1 : 0.1;
-  work.phase(from, from + segmentShare * (to - from));
   if (!segments.compute(loops, set, triangleCost, measure, work)) return false;
   const Pass pass{loops, set, triangleCost, measure, segments, work};
-  if (single) {
+  if (loops.loopCount() == 1) {
     const uint32_t edge = set.loopEdges[root];
     const ClosedSegment all{edge, segments.sideFrom(edge, loops.next(root))};
     const uint32_t slot = segments.bestSplit(all, kNone);
-    cost = slot == kNone ? kInfinity : segments.splitValue(all, slot);
-    surface.order.clear();
-    traceSegment(pass, all, kNone, surface.order);
+    optimum.reached = true;
+    optimum.cost = slot == kNone ? kInfinity : segments.splitValue(all, slot);
+    traceSegment(pass, all, kNone, optimum.order);
     surface.domains += set.slotTriangle.size();
     surface.minimalSets += set.slotTriangle.size();
     return true;
   }
-  if (!holesFit(loops, set, root, work)) {
-    work.fail(Status::TooLarge);
-    return false;
-  }
-  work.phase(from + segmentShare * (to - from), from + 0.95 * (to - from));
   RelaxedBound bound(pass);
   const std::vector<uint32_t> rootShape = Domains(loops).root(root);
-  if (!bound.compute(rootShape)) return false;
-  work.phase(from + 0.95 * (to - from), to);
+  optimum.reached = bound.compute(rootShape, maxSplits);
+  surface.domains += bound.domainCount();
+  if (!optimum.reached) return work.going();
   ExactSolver solver(pass, bound, root);
-  if (!solver.solve(cost, surface.order)) return false;
-  surface.domains += bound.domainCount() + solver.domainCount();
+  const bool solved = solver.solve(optimum.cost, optimum.order);
+  surface.domains += solver.domainCount();
   surface.minimalSets += solver.minimalSetCount();
-  return true;
+  return solved;
+}
+
+/// The same over some of the candidates only; the order is in numbers of the whole set.
+bool solveSubset(const Task& task, const std::vector<uint32_t>& kept, uint64_t maxSplits,
+                 Optimum& optimum, Surface& surface) {
+  const size_t before = task.work.used();
+  CandidateSet subset;
+  std::vector<double> cost;
+  for (const uint32_t t : kept) cost.push_back(task.triangleCost[t]);
+  const bool good = buildSubset(task.loops, task.set, kept, task.work, subset) &&
+                    solveDirectly({task.loops, subset, cost, task.measure, task.work}, maxSplits,
+                                  optimum, surface);
+  task.work.release(task.work.used() - before);
+  for (uint32_t& t : optimum.order) t = kept[t];
+  return good;
+}
+
+/// Solves a task that is too large for all its domains: bounds it by its fans, finds a surface among
+/// the triangles that look best by that bound, and then solves it over the triangles that the bound
+/// and this surface leave. Both get better from round to round, and the rounds longer.
+bool solveByFans(const Task& task, Optimum& optimum, Surface& surface) {
+  FanBound fans(task.loops, task.set, task.triangleCost, task.measure, task.work);
+  const double wanted = double(task.loops.vertexCount()) + 2.0 * task.loops.loopCount() - 4;
+  std::vector<double> excess;
+  std::vector<uint32_t> byExcess;
+  Optimum best;
+  double share = 1.25;  // candidates to look for a surface in, as a multiple of its triangles
+  uint64_t maxSplits = kFirstSplits;
+  for (uint32_t round = 0; task.work.going(); ++round) {
+    task.work.setFraction(1 - 1 / (1 + 0.3 * round));
+    if (!fans.ascend(300, best.cost) || !fans.excess(excess)) return false;
+    if (fans.lowerBound() == kInfinity) break;
+    byExcess.clear();
+    for (uint32_t t = 0; t < excess.size(); ++t)
+      if (excess[t] < kInfinity) byExcess.push_back(t);
+    std::sort(byExcess.begin(), byExcess.end(), [&](uint32_t a, uint32_t b) {
+      return excess[a] < excess[b] || (excess[a] == excess[b] && a < b);
+    });
+    // How many of them a surface that is better than the best one can have.
+    const auto left = [&] {
+      // Sums in another order differ in the last digits.
+      const double most = best.cost + 1e-9 * std::fabs(best.cost) - fans.lowerBound();
+      const auto end = std::partition_point(byExcess.begin(), byExcess.end(),
+                                            [&](uint32_t t) { return !(excess[t] > most); });
+      return size_t(end - byExcess.begin());
+    };
+    for (;;) {
+      const size_t tried = std::min(left(), size_t(share * wanted) + 1);
+      std::vector<uint32_t> kept(byExcess.begin(), byExcess.begin() + std::ptrdiff_t(tried));
+      std::sort(kept.begin(), kept.end());
+      Optimum found;
+      if (!solveSubset(task, kept, maxSplits, found, surface)) return false;
+      if (found.cost < best.cost) best = found;
+      task.work.setBounds(best.cost, fans.lowerBound());
+      // Whatever uses a triangle that was left out costs more than the best surface.
+      if (found.reached && left() <= tried) {
+        optimum = best;
+        optimum.reached = true;
+        return true;
+      }
+      if (!found.reached) break;
+      share *= 1.5;
+    }
+    maxSplits *= 3;
+    share = std::max(1.25, share / 1.5);
+  }
+  optimum.reached = true;  // there is no surface, if the work has not ended
+  return task.work.going();
+}
+
+/// The optimum of one pass, from fraction `from` to `to` of the work.
+bool runPass(const Task& task, double from, double to, uint64_t firstSplits, Optimum& optimum,
+             Surface& surface) {
+  const double wanted = double(task.loops.vertexCount()) + 2.0 * task.loops.loopCount() - 4;
+  // Fans tell little of large sets: multipliers, and work, grow with the candidates.
+  const bool direct = task.loops.loopCount() == 1 || task.measure.isWorst() ||
+                      double(task.set.size()) > kManyCandidates * wanted;
+  task.work.phase(from, direct ? to : from + 0.2 * (to - from));
+  if (!solveDirectly(task, direct ? kUnlimited : firstSplits, optimum, surface)) return false;
+  if (optimum.reached) return true;
+  task.work.phase(from + 0.2 * (to - from), to);
+  return solveByFans(task, optimum, surface);
 }
 
 }  // namespace
 
 bool solveSurface(const LoopSet& loops, const CandidateSet& set, double dihedralWeight,
-                  Objective objective, Work& work, Surface& surface) {
+                  Objective objective, Work& work, Surface& surface, uint64_t firstSplits) {
   surface = {};
-  const uint32_t root = chooseRoot(loops, set);
-  if (root == kNone) return work.going();
-
-  double cost = kInfinity;
+  Optimum optimum;
   if (objective == Objective::Sum) {
-    if (!runPass(loops, set, set.weight, Measure::sum(dihedralWeight), root, 0, 1, work, cost,
+    const Task task{loops, set, set.weight, Measure::sum(dihedralWeight), work};
+    if (!runPass(task, 0, 1, firstSplits, optimum, surface)) return false;
+    surface.lowerBound = optimum.cost;
+  } else {
+    const std::vector<double> angle =
+        set.boundaryAngle.empty() ? std::vector<double>(set.size(), 0) : set.boundaryAngle;
+    if (!runPass({loops, set, angle, Measure::worst(), work}, 0, 0.5, firstSplits, optimum,
                  surface))
       return false;
-    surface.found = cost < kInfinity;
-    surface.lowerBound = cost;
-    return true;
+    if (optimum.cost == kInfinity) return true;
+    surface.lowerBound = optimum.cost;
+    const double cap = optimum.cost + kAngleTie;
+    std::vector<double> weight = set.weight;
+    for (size_t t = 0; t < weight.size(); ++t)
+      if (angle[t] > cap) weight[t] = kInfinity;
+    const Task task{loops, set, weight, Measure::sum(dihedralWeight, cap), work};
+    if (!runPass(task, 0.5, 1, firstSplits, optimum, surface)) return false;
+    SF_ASSERT(optimum.cost < kInfinity);
   }
-
-  const std::vector<double> angle =
-      set.boundaryAngle.empty() ? std::vector<double>(set.size(), 0) : set.boundaryAngle;
-  if (!runPass(loops, set, angle, Measure::worst(), root, 0, 0.5, work, cost, surface))
-    return false;
-  if (cost == kInfinity) return true;
-  surface.lowerBound = cost;
-  const double cap = cost + kAngleTie;
-  std::vector<double> weight = set.weight;
-  for (size_t t = 0; t < weight.size(); ++t)
-    if (angle[t] > cap) weight[t] = kInfinity;
-  if (!runPass(loops, set, weight, Measure::sum(dihedralWeight, cap), root, 0.5, 1, work, cost,
-               surface))
-    return false;
-  SF_ASSERT(cost < kInfinity);
-  surface.found = true;
+  surface.found = optimum.cost < kInfinity;
+  surface.order = std::move(optimum.order);
   return true;
 }
 

@@ -78,8 +78,10 @@ class Spanning {
   }
 
   Outcome run() {
-    if (!std::isfinite(areaWeight_) || !std::isfinite(perimeterWeight_))
-      return {Status::BadWeights};
+    // Costs are sums over many triangles, and have to stay far below infinity.
+    double largest = areaWeight_ + perimeterWeight_ + options_.dihedralWeight;
+    for (const double own : options_.triangleWeights) largest = std::max(largest, std::fabs(own));
+    if (!(largest < 1e290)) return {Status::BadWeights};
     switch (options_.space) {
       case Space::All:
         return runAll();
