@@ -30,6 +30,12 @@ bool Domains::isEnd(Shape d, uint32_t v) const {
 
 bool Domains::makeCanonical(std::vector<uint32_t>& shape) const {
   const uint32_t m = segmentCount(shape);
+  if (m == 1) {
+    // Forward, so that case I enters a hole from the end of the segment (see two_loop_bound.h).
+    const Segment s = segment(shape, 0);
+    if (s.reversed) setSegment(shape, 0, {s.end, s.start, false, s.whole});
+    return s.reversed;
+  }
   // The mirror image passes the segments in reverse order, each the other way round. Both are
   // compared from the front, without building the second.
   int order = 0;

@@ -36,7 +36,7 @@ void traceSegment(const Pass& pass, ClosedSegment segment, uint32_t accessSlot, 
   }
 }
 
-ExactSolver::ExactSolver(const Pass& pass, const RelaxedBound& bound, uint32_t rootVertex)
+ExactSolver::ExactSolver(const Pass& pass, LowerBound& bound, uint32_t rootVertex)
     : pass_(pass),
       bound_(bound),
       rootVertex_(rootVertex),

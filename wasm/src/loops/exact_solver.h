@@ -1,7 +1,7 @@
 // The optimal surface over several loops.
 // Source: Zou, Ju, Carr 2013, sec. 3.2 and fig. 6: domains with the triangles across all their
 // spanning edges, weak edge sets, minimal sets, traceback.
-// Differs: top-down on an explicit stack, splits in the order of their lower bound (relaxed_bound.h)
+// Differs: top-down on an explicit stack, splits in the order of their lower bound (lower_bound.h)
 // and cut as soon as that cannot improve on a surface without critical edges. Weak edges are
 // tracked lazily: first none; where the optimum then closes an edge twice, that edge becomes
 // critical, and the pass is repeated. This is exact, since an optimum of the relaxed problem that
@@ -12,8 +12,8 @@
 
 #include "loops/domain.h"
 #include "loops/domain_table.h"
+#include "loops/lower_bound.h"
 #include "loops/pass.h"
-#include "loops/relaxed_bound.h"
 #include "loops/weak_edge_set.h"
 
 namespace sf {
@@ -30,7 +30,7 @@ class ExactSolver {
  public:
   /// `bound` is of the same pass and computed from the same root, the edge from `rootVertex` to
   /// the next vertex of its loop.
-  ExactSolver(const Pass& pass, const RelaxedBound& bound, uint32_t rootVertex);
+  ExactSolver(const Pass& pass, LowerBound& bound, uint32_t rootVertex);
 
   /// The least cost, infinity if there is no surface; false when the work ended.
   bool solve(double& cost, SplitOrder& order);
@@ -110,7 +110,7 @@ class ExactSolver {
   void criticalSpanningEdges(Shape shape, std::vector<uint32_t>& edges) const;
 
   const Pass& pass_;
-  const RelaxedBound& bound_;
+  LowerBound& bound_;
   uint32_t rootVertex_;
   uint32_t holeWords_;
   Domains domains_;

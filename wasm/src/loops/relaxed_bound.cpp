@@ -19,32 +19,6 @@ uint32_t RelaxedBound::accessEdge(Shape shape) const {
   return pass_.set.edgeBetween(domains_.spanStart(shape, m - 1), domains_.spanEnd(shape, m - 1));
 }
 
-void RelaxedBound::computeLeastPairs() {
-  const CandidateSet& set = pass_.set;
-  leastPair_.assign(set.slotTriangle.size(), kInfinity);
-  std::vector<std::pair<double, uint32_t>> around;
-  for (uint32_t e = 0; e < set.edgeCount(); ++e) {
-    around.clear();
-    for (uint32_t s = set.edgeSlots[e]; s < set.edgeSlots[e + 1]; ++s)
-      around.push_back({set.slotTheta[s], s});
-    if (around.size() < 2) continue;
-    std::sort(around.begin(), around.end());
-    // The flattest partner stands nearest to the opposite direction, on one side or the other.
-    for (const auto& [theta, slot] : around) {
-      const double opposite = theta > 0 ? theta - kPi : theta + kPi;
-      const size_t at =
-          size_t(std::lower_bound(around.begin(), around.end(), std::make_pair(opposite, 0u)) -
-                 around.begin());
-      for (size_t step = 0; step < 2; ++step) {
-        // Skips the triangle itself, which can be next only if there is nothing nearer.
-        size_t i = (at + (step == 0 ? 0 : around.size() - 1)) % around.size();
-        if (around[i].second == slot) i = (i + (step == 0 ? 1 : around.size() - 1)) % around.size();
-        leastPair_[slot] = std::min(leastPair_[slot], pass_.measure.pair(theta, around[i].first));
-      }
-    }
-  }
-}
-
 bool RelaxedBound::open(uint32_t domain) {
   const CandidateSet& set = pass_.set;
   // Keys stay where they are while the table grows.
@@ -136,7 +110,7 @@ bool RelaxedBound::close(const Frame& frame) {
 bool RelaxedBound::compute(ArrayView<const uint32_t> root, uint64_t maxSplits) {
   splitsLeft_ = maxSplits;
   const double expectedSplits = std::min(double(maxSplits), 1e7);
-  computeLeastPairs();
+  leastPair_ = leastPairs(pass_.set, pass_.measure);
   if (table_.insert(root) == kNone || !open(0)) return false;
   while (!frames_.empty()) {
     Frame& frame = frames_.back();
@@ -159,7 +133,7 @@ bool RelaxedBound::compute(ArrayView<const uint32_t> root, uint64_t maxSplits) {
   return true;
 }
 
-double RelaxedBound::value(Shape shape, uint32_t slot) const {
+double RelaxedBound::value(Shape shape, uint32_t slot) {
   const uint32_t domain = table_.find(shape);
   if (domain == kNone) return kInfinity;
   return values_[domain][slot - pass_.set.edgeSlots[accessEdge(shape)]];

@@ -11,30 +11,24 @@
 #include "loops/angular_transform.h"
 #include "loops/domain.h"
 #include "loops/domain_table.h"
+#include "loops/lower_bound.h"
 #include "loops/pass.h"
 
 namespace sf {
 
-class RelaxedBound {
+class RelaxedBound final : public LowerBound {
  public:
   explicit RelaxedBound(const Pass& pass);
-  ~RelaxedBound();
+  ~RelaxedBound() override;
 
   /// Computes R for the root and all that it can split into; false when the work ended, or after
   /// `maxSplits` splits of domains.
   /// Explicit stack. Memory: one double for each domain shape and triangle on its access edge.
   bool compute(ArrayView<const uint32_t> root, uint64_t maxSplits);
 
-  /// R of the root: no surface costs less. Infinity: there is none.
-  double rootBound() const { return rootBound_; }
+  double rootBound() const override { return rootBound_; }
 
-  /// R of the domain of that canonical shape with the slot's triangle as access triangle, whose
-  /// bi-triangle weight is counted; infinity if no surface fills it. The slot is on the access edge.
-  double value(Shape shape, uint32_t slot) const;
-
-  /// The least bi-triangle weight that the slot's triangle can have with another at that edge.
-  double leastPair(uint32_t slot) const { return leastPair_[slot]; }
-
+  double value(Shape shape, uint32_t slot) override;
   uint64_t domainCount() const { return table_.size(); }
 
  private:
@@ -53,7 +47,6 @@ class RelaxedBound {
   bool open(uint32_t domain);
   bool addEntry(const Split& split, uint32_t slot);
   bool close(const Frame& frame);
-  void computeLeastPairs();
 
   const Pass& pass_;
   Domains domains_;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "loops/fan_bound.h"
+#include "loops/relaxed_bound.h"
+#include "loops/two_loop_bound.h"
 
 namespace sf {
 namespace {
@@ -35,8 +37,11 @@ struct Optimum {
   SplitOrder order;
 };
 
-/// Candidates for each triangle of the surface above which fans are not tried.
-constexpr double kManyCandidates = 24;
+/// Whether the candidates are many for the surface: dense arrays pay then, and fans do not, which
+/// have multipliers for each of them.
+bool isLarge(const LoopSet& loops, const CandidateSet& set) {
+  return double(set.size()) > 24 * (double(loops.vertexCount()) + 2.0 * loops.loopCount() - 4);
+}
 constexpr uint64_t kUnlimited = ~uint64_t(0);
 
 /// Solves a task by the domains of all its candidates, unless that takes more than `maxSplits` splits.
@@ -63,16 +68,25 @@ bool solveDirectly(const Task& task, uint64_t maxSplits, Optimum& optimum, Surfa
     surface.minimalSets += set.slotTriangle.size();
     return true;
   }
+  const auto solveExactly = [&](LowerBound& bound) {
+    ExactSolver solver(pass, bound, root);
+    const bool solved = solver.solve(optimum.cost, optimum.order);
+    surface.domains += solver.domainCount();
+    surface.minimalSets += solver.minimalSetCount();
+    return solved;
+  };
+  if (loops.loopCount() == 2 && isLarge(loops, set)) {
+    TwoLoopBound bound(pass, root);
+    optimum.reached = bound.compute();
+    surface.domains += bound.domainCount();
+    return optimum.reached && solveExactly(bound);
+  }
   RelaxedBound bound(pass);
   const std::vector<uint32_t> rootShape = Domains(loops).root(root);
   optimum.reached = bound.compute(rootShape, maxSplits);
   surface.domains += bound.domainCount();
   if (!optimum.reached) return work.going();
-  ExactSolver solver(pass, bound, root);
-  const bool solved = solver.solve(optimum.cost, optimum.order);
-  surface.domains += solver.domainCount();
-  surface.minimalSets += solver.minimalSetCount();
-  return solved;
+  return solveExactly(bound);
 }
 
 /// The same over some of the candidates only; the order is in numbers of the whole set.
@@ -146,10 +160,8 @@ bool solveByFans(const Task& task, Optimum& optimum, Surface& surface) {
 /// The optimum of one pass, from fraction `from` to `to` of the work.
 bool runPass(const Task& task, double from, double to, uint64_t firstSplits, Optimum& optimum,
              Surface& surface) {
-  const double wanted = double(task.loops.vertexCount()) + 2.0 * task.loops.loopCount() - 4;
-  // Fans tell little of large sets: multipliers, and work, grow with the candidates.
-  const bool direct = task.loops.loopCount() == 1 || task.measure.isWorst() ||
-                      double(task.set.size()) > kManyCandidates * wanted;
+  const bool direct =
+      task.loops.loopCount() == 1 || task.measure.isWorst() || isLarge(task.loops, task.set);
   task.work.phase(from, direct ? to : from + 0.2 * (to - from));
   if (!solveDirectly(task, direct ? kUnlimited : firstSplits, optimum, surface)) return false;
   if (optimum.reached) return true;
@@ -195,7 +207,7 @@ double predictedTimeOfAllTriples(const LoopSet& loops) {
   double shapes = 1;
   for (uint32_t c = 0; c < loops.loopCount(); ++c)
     shapes *= double(loops.size(c)) * loops.size(c) * (c < 2 ? 1 : 2.0 * c);
-  return shapes * n * 300;
+  return shapes * n * (loops.loopCount() == 2 ? 20 : 300);
 }
 
 }  // namespace sf
