@@ -27,7 +27,8 @@ const kDefaultMemoryBytes = 3 * 2 ** 30;
  * sphere with k holes (Zou, Ju, Carr 2013). Synchronous; the worker of `soapfilm/worker` offers
  * the same without blocking.
  *
- * @param loops flat arrays, or one array of points a loop; directions carry no meaning
+ * @param loops flat arrays, or one array of points a loop; their directions matter only to
+ *   `boundaryNormals`
  * @returns the surface, m = n' + 2k - 4 triangles; `found: false` where the candidate space holds
  *   none, which is an ordinary outcome for Delaunay candidates of contorted loops
  * @throws SoapfilmError `not-loaded`; `no-loops`, `bad-loops`, `bad-starts`, `not-finite`,
@@ -37,6 +38,9 @@ const kDefaultMemoryBytes = 3 * 2 ** 30;
  */
 export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | NoSpan {
   const input = toLoopSet(loops);
+  if (typeof (options as unknown) !== 'object' || (options as unknown) === null) {
+    throw new SoapfilmError('bad-option', 'The options must be an object');
+  }
   const { onProgress, maxSeconds } = options;
   checkLimits(options);
   const list = typeof options.candidates === 'object' ? checkList(options.candidates) : undefined;

@@ -31,7 +31,7 @@ const table: Readonly<Record<number, readonly [ErrorCode, (place: ErrorPlace) =>
         ? '`starts` must increase from 0 to the number of vertices'
         : `\`starts\` must increase from 0 to the number of vertices; it does not at loop ${place.loop}`,
   ],
-  4: ['not-finite', (place) => `${first(place)} has a coordinate that is NaN or infinite`],
+  4: ['not-finite', (place) => `${first(place)} has a coordinate that is NaN, infinite or beyond 1e150`],
   5: [
     'too-few-vertices',
     (place) => `${at(place.loop, undefined)} has fewer than the 3 vertices that a loop needs`,

@@ -53,10 +53,14 @@ export interface SpanOptions {
   readonly candidates?: CandidateSpace | CandidateList;
   /**
    * `[3n]`: normal of the face that lies across the edge from each vertex to the next of its loop,
-   * NaN for none. Its angle to the boundary triangle, wound along the loop, is added to the cost.
+   * NaN for none. Its angle to the boundary triangle, wound along the loop, is added to the cost: only
+   * here does the direction of a loop matter. As in a mesh, the face is on the loop's right.
    */
   readonly boundaryNormals?: Float64Array;
-  /** Memory that the solver may use. Default 3 GiB. */
+  /**
+   * Memory that the solver may use. Default 3 GiB. One loop over all triples that fits only in single
+   * precision is solved in it, to a relative error of about 1e-6, and comes with `optimal: false`.
+   */
   readonly maxMemoryBytes?: number;
   /** Seconds after which the call ends with `time-limit`. Default: none. */
   readonly maxSeconds?: number;
@@ -74,9 +78,9 @@ export interface SpanTerms {
 export interface SpanStats {
   /** Candidate triangles. */
   readonly candidates: number;
-  /** Domains solved (Zou, Ju, Carr 2013, section 3.2.1). */
+  /** Domains solved, or bounded (Zou, Ju, Carr 2013, section 3.2.1); segments for a single loop. */
   readonly domains: number;
-  /** Minimal weak edge sets stored (section 3.2.3). */
+  /** Minimal weak edge sets stored (section 3.2.3); one for each segment of a single loop. */
   readonly minimalSets: number;
   readonly seconds: number;
   /** Largest amount of memory that the solver held at once. */

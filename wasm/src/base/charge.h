@@ -12,14 +12,14 @@ class Charge {
   Charge& operator=(const Charge&) = delete;
 
   /// Charges `bytes` more; false once the limit is exceeded.
-  bool add(size_t bytes) {
+  bool add(uint64_t bytes) {
     bytes_ += bytes;
     return work_.charge(bytes);
   }
 
  private:
   Work& work_;
-  size_t bytes_ = 0;
+  uint64_t bytes_ = 0;
 };
 
 }  // namespace sf

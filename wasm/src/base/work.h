@@ -3,6 +3,7 @@
 // The core does not throw and does not read clocks: whoever starts a call hands it a progress
 // function, which reports, looks at the time and at cancellation, and answers whether to go on.
 #pragma once
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -24,13 +25,13 @@ class Work {
       : maxBytes_(maxBytes), progress_(progress), user_(user) {}
 
   /// Charges `bytes` against the limit; false, with status OutOfMemory, once that exceeds it.
-  bool charge(size_t bytes) {
+  bool charge(uint64_t bytes) {
     used_ += bytes;
     if (used_ > peak_) peak_ = used_;
     if (used_ > maxBytes_) fail(Status::OutOfMemory);
     return status_ == Status::Ok;
   }
-  void release(size_t bytes) { used_ -= bytes; }
+  void release(uint64_t bytes) { used_ -= bytes; }
   /// Whether `bytes` more would still fit: for sizes predicted before the work begins.
   bool fits(double bytes) const { return bytes <= double(maxBytes_) - double(used_); }
 
@@ -41,8 +42,19 @@ class Work {
     if (pending_ >= kUnitsPerReport) report();
     return status_ == Status::Ok;
   }
-  /// Maps the share of the work in the phase that begins now: `setFraction(0..1)` inside [a, b].
-  void phase(double a, double b) { phaseStart_ = a, phaseEnd_ = b, setFraction(0); }
+  /// The part of the whole work that begins now: the phases that follow lie inside [a, b] of it.
+  /// What was known of costs is forgotten; those of this part are told times 2^costExponent.
+  void beginPart(double a, double b, int costExponent) {
+    partStart_ = a, partEnd_ = b, costExponent_ = costExponent;
+    setBounds(std::numeric_limits<double>::infinity(), 0);
+    phase(0, 1);
+  }
+  /// The phase that begins now, of the current part: `setFraction(0..1)` is inside [a, b] of it.
+  void phase(double a, double b) {
+    phaseStart_ = partStart_ + (partEnd_ - partStart_) * a;
+    phaseEnd_ = partStart_ + (partEnd_ - partStart_) * b;
+    setFraction(0);
+  }
   void setFraction(double inPhase) {
     double f = phaseStart_ + (phaseEnd_ - phaseStart_) * inPhase;
     if (f > fraction_) fraction_ = f < 1 ? f : 1;
@@ -54,15 +66,14 @@ class Work {
   void fail(Status s) {
     if (status_ == Status::Ok) status_ = s;
   }
-  /// Makes the object usable again after a failure that was dealt with; keeps the peak.
-  void recover() { status_ = Status::Ok; }
-  size_t used() const { return used_; }
-  size_t peak() const { return peak_; }
+  uint64_t used() const { return used_; }
+  uint64_t peak() const { return peak_; }
 
   /// Asks the progress function now.
   void report() {
     pending_ = 0;
-    if (progress_ && !progress_(user_, fraction_, best_, lower_)) fail(Status::Stopped);
+    const double best = std::ldexp(best_, costExponent_), lower = std::ldexp(lower_, costExponent_);
+    if (progress_ && !progress_(user_, fraction_, best, lower)) fail(Status::Stopped);
   }
 
  private:
@@ -70,9 +81,10 @@ class Work {
   size_t maxBytes_ = size_t(-1);
   ProgressFunction progress_ = nullptr;
   void* user_ = nullptr;
-  size_t used_ = 0, peak_ = 0;
+  uint64_t used_ = 0, peak_ = 0;  // 64 bits: sums are compared with the limit afterwards
   uint32_t pending_ = 0;
-  double fraction_ = 0, phaseStart_ = 0, phaseEnd_ = 1;
+  double fraction_ = 0, partStart_ = 0, partEnd_ = 1, phaseStart_ = 0, phaseEnd_ = 1;
+  int costExponent_ = 0;
   double best_ = std::numeric_limits<double>::infinity(), lower_ = 0;
   Status status_ = Status::Ok;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/charge.h"
 #include "base/predicates.h"
 #include "loops/weight.h"
 
@@ -68,11 +69,12 @@ void nearestVertices(const LoopSet& loops, const std::vector<uint32_t>& start,
   if (near.size() > reach) near.resize(reach);
 }
 
-void weighTriangles(const LoopSet& loops, const TriangleWeights& w, CandidateSet& set) {
+bool weighTriangles(const LoopSet& loops, const TriangleWeights& w, Work& work, CandidateSet& set) {
   const size_t c = set.size();
   set.weight.assign(c, 0);
   if (!w.normals.empty()) set.boundaryAngle.assign(c, 0);
   for (size_t t = 0; t < c; ++t) {
+    if (!work.tick(60)) return false;
     const uint32_t* v = &set.triangles[3 * t];
     const Vec3 p[3] = {loops.position(v[0]), loops.position(v[1]), loops.position(v[2])};
     const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
@@ -88,11 +90,12 @@ void weighTriangles(const LoopSet& loops, const TriangleWeights& w, CandidateSet
     }
     set.weight[t] = sum;
   }
+  return true;
 }
 
 /// Fills all edge and slot arrays from `triangles`: two stable counting sorts put the 3c corners
 /// in the order of their opposite edges.
-void buildIncidence(const LoopSet& loops, CandidateSet& set) {
+bool buildIncidence(const LoopSet& loops, Work& work, CandidateSet& set) {
   const uint32_t n = loops.vertexCount();
   const size_t corners = set.triangles.size();
   auto low = [&](uint32_t corner) {
@@ -121,6 +124,7 @@ void buildIncidence(const LoopSet& loops, CandidateSet& set) {
   set.edgeSlots.clear();
   Frame frame{};
   for (uint32_t slot = 0; slot < corners; ++slot) {
+    if (!work.tick(80)) return false;
     const uint32_t corner = sortedCorners[slot];
     const uint32_t u = low(corner), v = high(corner);
     if (slot == 0 || set.edgeVertices[set.edgeVertices.size() - 2] != u ||
@@ -154,6 +158,7 @@ void buildIncidence(const LoopSet& loops, CandidateSet& set) {
     set.isLoopEdge[e] = 1;
     set.loopEdges[loops.next(u) == v ? u : v] = e;
   }
+  return true;
 }
 
 }  // namespace
@@ -212,9 +217,17 @@ bool facetTriples(const LoopSet& loops, ArrayView<const uint32_t> facets, Work& 
   return work.tick(uint32_t(std::min<size_t>(100 * all.size(), 1u << 30)));
 }
 
+double predictedNearTriples(const LoopSet& loops, uint32_t reach) {
+  const double near = std::min(double(reach) + 2, double(loops.vertexCount()));
+  return double(loops.vertexCount()) * (near * (near - 1) / 2 + 2 * near);
+}
+
 bool nearTriples(const LoopSet& loops, ArrayView<const uint32_t> facets, uint32_t reach, Work& work,
                  std::vector<uint32_t>& triples) {
   const uint32_t n = loops.vertexCount();
+  const double most = predictedNearTriples(loops, reach) + double(facets.size() / 3);
+  Charge memory(work);
+  if (!memory.add(uint64_t(most * (sizeof(Triple) + 12)))) return false;
   std::vector<uint32_t> start, neighbours, near, nearNext;
   facetNeighbours(n, facets, start, neighbours);
   std::vector<Triple> all;
@@ -276,15 +289,13 @@ bool buildCandidateSet(const LoopSet& loops, const TriangleWeights& weights,
                        std::vector<uint32_t> triples, Work& work, CandidateSet& set) {
   set.triangles = std::move(triples);
   const size_t c = set.size();
-  if (!work.charge(size_t(CandidateSet::bytesFor(double(c))))) return false;
-  weighTriangles(loops, weights, set);
-  buildIncidence(loops, set);
-  return work.tick(uint32_t(std::min<size_t>(300 * c, 1u << 30)));
+  if (!work.charge(uint64_t(CandidateSet::bytesFor(double(c))))) return false;
+  return weighTriangles(loops, weights, work, set) && buildIncidence(loops, work, set);
 }
 
 bool buildSubset(const LoopSet& loops, const CandidateSet& set, ArrayView<const uint32_t> kept,
                  Work& work, CandidateSet& subset) {
-  if (!work.charge(size_t(CandidateSet::bytesFor(double(kept.size()))))) return false;
+  if (!work.charge(uint64_t(CandidateSet::bytesFor(double(kept.size()))))) return false;
   subset = {};
   for (const uint32_t t : kept) {
     const uint32_t* v = &set.triangles[3 * size_t(t)];
@@ -292,8 +303,7 @@ bool buildSubset(const LoopSet& loops, const CandidateSet& set, ArrayView<const 
     subset.weight.push_back(set.weight[t]);
     if (!set.boundaryAngle.empty()) subset.boundaryAngle.push_back(set.boundaryAngle[t]);
   }
-  buildIncidence(loops, subset);
-  return work.tick(uint32_t(std::min<size_t>(300 * kept.size(), 1u << 30)));
+  return buildIncidence(loops, work, subset);
 }
 
 }  // namespace sf

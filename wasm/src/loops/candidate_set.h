@@ -65,6 +65,8 @@ bool faceAngle(const LoopSet& loops, ArrayView<const double> normals, uint32_t a
 /// Triples of a space, three increasing vertices each, no triple twice, none collinear. [3c]
 /// All of them: n (n-1) (n-2) / 6 at most.
 bool allTriples(const LoopSet& loops, Work& work, std::vector<uint32_t>& triples);
+/// At most how many triples nearTriples makes besides the facets, before repeated ones are dropped.
+double predictedNearTriples(const LoopSet& loops, uint32_t reach);
 /// The facets, every triple of a vertex and two of its `reach` nearest neighbours along Delaunay
 /// edges, and each loop edge with the neighbours of its ends.
 ///   facets  [3f] of the Delaunay tetrahedralization of the loop vertices

@@ -62,7 +62,7 @@ bool ExactSolver::solveOnce(double& cost) {
   arena_.clear();
   solutions_.clear();
   solved_.clear();
-  frames_.clear();
+  SF_ASSERT(frames_.empty());
   cost = kInfinity;
   if (bound_.rootBound() == kInfinity) return true;
   std::vector<uint32_t> root = domains_.root(rootVertex_);
@@ -143,7 +143,7 @@ bool ExactSolver::open(uint32_t domain) {
   const Shape shape = shapeOf(domain);
   const ArrayView<const uint32_t> triangles = trianglesOf(domain);
   const uint32_t edge = accessEdge(shape);
-  frames_.push_back({domain, 0, kInfinity, {}, {}});
+  frames_.push_back({domain, 0, 0, kInfinity, {}, {}});
   std::vector<Candidate>& candidates = frames_.back().candidates;
   for (uint32_t slot = set.edgeSlots[edge]; slot < set.edgeSlots[edge + 1]; ++slot) {
     if (set.slotTriangle[slot] + 1 == triangles[0]) continue;
@@ -161,7 +161,8 @@ bool ExactSolver::open(uint32_t domain) {
                                                            std::make_pair(b.slot, b.ordinal));
   });
   ++domainCount_;
-  return true;
+  frames_.back().bytes = candidates.capacity() * sizeof(Candidate);
+  return pass_.work.charge(frames_.back().bytes);
 }
 
 uint32_t ExactSolver::insertPart(const Split& split, uint32_t i, uint32_t t,
@@ -201,7 +202,7 @@ bool ExactSolver::makeParts(const Frame& frame, const Candidate& candidate) {
   uint32_t ordinal = 0;
   bool good = true;
   domains_.forEachSplit(shape, pass_.set.slotApex[candidate.slot], [&](const Split& split) {
-    if (ordinal++ != candidate.ordinal) return true;
+    if (ordinal++ != candidate.ordinal) return pass_.work.tick(50);
     partCount_ = split.partCount;
     for (uint32_t i = 0; i < split.partCount; ++i) {
       const SplitPart& part = split.part[i];
@@ -226,7 +227,7 @@ bool ExactSolver::makeParts(const Frame& frame, const Candidate& candidate) {
     }
     return false;
   });
-  return good;
+  return good && pass_.work.going();
 }
 
 bool ExactSolver::take(Frame& frame, const Candidate& candidate, uint32_t& missing) {
@@ -238,7 +239,7 @@ bool ExactSolver::take(Frame& frame, const Candidate& candidate, uint32_t& missi
     return true;
   }
   combine(frame, candidate);
-  return true;
+  return pass_.work.going();
 }
 
 void ExactSolver::combine(Frame& frame, const Candidate& candidate) {
@@ -278,6 +279,7 @@ void ExactSolver::combine(Frame& frame, const Candidate& candidate) {
     if (contains(used[0], access)) continue;
     for (uint32_t j = 0; j < choices[1].size(); ++j) {
       unite(choices[1][j].weakEdges(), parts_[1].spanning, used[1]);
+      if (!pass_.work.tick(200)) return;
       if (contains(used[1], access) || !disjoint(used[0], used[1])) continue;
       Draft draft;
       draft.solution.cost =
@@ -326,6 +328,7 @@ bool ExactSolver::close(Frame& frame) {
     solutions[i].edgeCount = uint32_t(d.edges.size());
   }
   minimalSetCount_ += frame.drafts.size();
+  pass_.work.release(frame.bytes);
   if (solved_.size() < table_.size()) {
     solved_.resize(table_.size(), 0);
     solutions_.resize(table_.size());

@@ -66,7 +66,8 @@ class ExactSolver {
   struct Frame {
     uint32_t domain;
     size_t cursor;
-    double cut;  // cost of the solution that uses no critical edge
+    uint64_t bytes;  // charged for the candidates
+    double cut;      // cost of the solution that uses no critical edge
     std::vector<Candidate> candidates;
     std::vector<Draft> drafts;
   };

@@ -19,7 +19,7 @@ FanBound::FanBound(const LoopSet& loops, const CandidateSet& set,
       transform_(Measure::sum(0.5 * measure.dihedralWeight(), measure.cap())) {
   const uint32_t n = loops.vertexCount();
   const size_t c = set.size();
-  if (!memory_.add(240 * c)) return;
+  if (!memory_.add(uint64_t(bytesFor(loops, set)))) return;
   triangleTotal_ = double(n) + 2.0 * loops.loopCount() - 4;
   third_.resize(c);
   for (size_t t = 0; t < c; ++t) third_[t] = triangleCost[t] / 3;
@@ -72,10 +72,20 @@ FanBound::FanBound(const LoopSet& loops, const CandidateSet& set,
     cheapest += vertex.longest;
     vertices_.push_back(vertex);
   }
-  if (!memory_.add(8 * (walks + cheapest))) return;
   walks_.resize(walks);
   cheapest_.resize(cheapest);
   length_.assign(n, 0);
+}
+
+double FanBound::bytesFor(const LoopSet& loops, const CandidateSet& set) {
+  std::vector<double> edges(loops.vertexCount(), 0), spokes(loops.vertexCount(), 0);
+  for (size_t i = 0; i < set.edgeVertices.size(); ++i) {
+    edges[set.edgeVertices[i]] += 1;
+    spokes[set.edgeVertices[i]] += set.degree(uint32_t(i / 2));
+  }
+  double bytes = 240 * double(set.size());
+  for (uint32_t v = 0; v < loops.vertexCount(); ++v) bytes += 8 * edges[v] * (spokes[v] + 1);
+  return bytes;
 }
 
 /// out[s] = the least over the edge's spokes of arriving there and turning over into s. Turning back
@@ -130,6 +140,7 @@ void FanBound::labelWalks(const Vertex& v) {
     cheapest[i] =
         *std::min_element(arrive + end.firstSpoke, arrive + end.firstSpoke + end.spokeCount);
     if (i + 1 < v.longest) leave(v, arrive, leave_.data());
+    if (!work_.tick(20 + 4 * n)) return;
   }
 }
 
@@ -157,8 +168,8 @@ double FanBound::shareOut() {
   };
   // The cost is concave in the price, with slope total - wanted: bisection, in a bracket around the
   // last price.
-  double low = price_ - 1e-3 - 0.1 * std::fabs(price_),
-         high = price_ + 1e-3 + 0.1 * std::fabs(price_);
+  const double reach = 0.1 * std::fabs(price_) + 1e-3 * stride_ / triangleTotal_;
+  double low = price_ - reach, high = price_ + reach;
   double cost, best = -kInfinity;
   const auto tryPrice = [&](double price) {
     const double total = choose(price, cost);
@@ -194,10 +205,8 @@ void FanBound::traceWalk(const Vertex& v, uint32_t length) {
 }
 
 double FanBound::evaluate() {
-  for (const Vertex& v : vertices_) {
-    labelWalks(v);
-    if (!work_.tick(100 + 3 * v.spokeCount * v.longest)) return best_;
-  }
+  for (const Vertex& v : vertices_) labelWalks(v);
+  if (!work_.going()) return best_;
   const double bound = shareOut();
   for (const uint32_t corner : usedCorners_) used_[corner] = 0;
   usedCorners_.clear();
@@ -241,7 +250,6 @@ bool FanBound::ascend(uint32_t steps, double target) {
       best_ = bound;
       bestMultiplier_ = multiplier_;
       bestPrice_ = price_;
-      work_.setBounds(target, best_);
     }
     if (idle_ > kPatienceOfAscent) {
       idle_ = 0;
@@ -280,6 +288,7 @@ bool FanBound::excess(std::vector<double>& excess) {
     const uint32_t n = v.spokeCount;
     const Spoke* spokes = &spokes_[v.firstSpoke];
     labelWalks(v);
+    if (!work_.going()) return false;
     // to: the cheapest walk, price included, that arrives at each spoke.
     to.assign(n, kInfinity);
     double best = kInfinity;
@@ -302,6 +311,7 @@ bool FanBound::excess(std::vector<double>& excess) {
       for (uint32_t s = 0; s < n; ++s)
         entering[s] = from[spokes[s].partner] + third_[spokes[s].corner / 3] +
                       multiplier_[spokes[s].corner] + price_;
+      if (!work_.tick(20 + 6 * n)) return false;
       leave(v, entering.data(), turned.data());
       bool progress = false;
       for (uint32_t s = 0; s < n; ++s)
@@ -316,7 +326,6 @@ bool FanBound::excess(std::vector<double>& excess) {
     for (uint32_t s = 0; s < n; ++s)
       if (s < spokes[s].partner)
         excess[spokes[s].corner / 3] += std::max(0.0, through[spokes[s].corner / 3] - best);
-    if (!work_.tick(200 + 6 * n * v.longest)) return false;
   }
   return true;
 }

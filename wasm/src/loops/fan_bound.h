@@ -25,7 +25,7 @@ namespace sf {
 
 class FanBound {
  public:
-  /// For sums only. Charges what it takes, mostly the labels of all walks.
+  /// For sums only. Charges what it takes, mostly the labels of all walks: see bytesFor.
   FanBound(const LoopSet& loops, const CandidateSet& set, const std::vector<double>& triangleCost,
            Measure measure, Work& work);
 
@@ -40,6 +40,9 @@ class FanBound {
   /// excess [c]: a surface that uses triangle t costs at least lowerBound() + excess[t]. Infinity for
   /// triangles that no fan can use. False when the work ended.
   bool excess(std::vector<double>& excess);
+
+  /// Grows with the square of the number of edges at a vertex, so that hubs make it large.
+  static double bytesFor(const LoopSet& loops, const CandidateSet& set);
 
  private:
   /// A triangle at one of the two edges that it has at a vertex. A walk in the link of the vertex

@@ -139,7 +139,7 @@ class AnglePass {
   AngularTransform transform_;
   std::vector<Real> base_;        // by least vertex, then greatest, then the one between
   std::vector<size_t> firstRow_;  // [n]
-  std::vector<double> theta_, cost_, inner_, innerTheta_, outerTheta_, best_;
+  std::vector<double> theta_, cost_, inner_, outerTheta_, best_;
 };
 
 template <class Real>
@@ -196,8 +196,7 @@ bool AnglePass<Real>::solve(double& cost) {
     if (longest > 1) rows += longest * (longest - 1) / 2;
   }
   base_.assign(rows, Real(0));
-  for (std::vector<double>* v : {&theta_, &cost_, &inner_, &innerTheta_, &outerTheta_, &best_})
-    v->resize(n);
+  for (std::vector<double>* v : {&theta_, &cost_, &inner_, &outerTheta_, &best_}) v->resize(n);
   double done = 0;
   const double all = double(n) * n / 2;
   for (uint32_t length = 2; length < n; ++length) {

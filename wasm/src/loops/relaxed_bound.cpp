@@ -103,6 +103,9 @@ bool RelaxedBound::close(const Frame& frame) {
                    degree, values);
   if (frame.domain == 0) rootBound_ = *std::min_element(best_.begin(), best_.end());
   values_[frame.domain] = values;
+  // The vector of pointers grows with the table; it is given back with the entries.
+  if (!pass_.work.charge(2 * sizeof(double*))) return false;
+  entriesCharged_ += 2 * sizeof(double*);
   entries_.resize(frame.firstEntry);
   return true;
 }

@@ -28,6 +28,11 @@ struct Task {
   const std::vector<double>& triangleCost;
   Measure measure;
   Work& work;
+  bool isObjective;  // whether costs are in the unit of the objective, to be told of on the way
+
+  void tell(double bestCost, double lowerBound) const {
+    if (isObjective) work.setBounds(bestCost, std::max(0.0, std::min(lowerBound, bestCost)));
+  }
 };
 
 /// The optimum of a task, if it was reached.
@@ -42,13 +47,15 @@ struct Optimum {
 bool isLarge(const LoopSet& loops, const CandidateSet& set) {
   return double(set.size()) > 24 * (double(loops.vertexCount()) + 2.0 * loops.loopCount() - 4);
 }
+
 constexpr uint64_t kUnlimited = ~uint64_t(0);
 
 /// Solves a task by the domains of all its candidates, unless that takes more than `maxSplits` splits.
 /// False when the work ended.
 bool solveDirectly(const Task& task, uint64_t maxSplits, Optimum& optimum, Surface& surface) {
   optimum = {};
-  const auto& [loops, set, triangleCost, measure, work] = task;
+  const auto& [loops, set, triangleCost, measure, work, isObjective] = task;
+  (void)isObjective;
   const uint32_t root = chooseRoot(loops, set);
   if (root == kNone) {
     optimum.reached = true;
@@ -69,6 +76,7 @@ bool solveDirectly(const Task& task, uint64_t maxSplits, Optimum& optimum, Surfa
     return true;
   }
   const auto solveExactly = [&](LowerBound& bound) {
+    task.tell(kInfinity, bound.rootBound());
     ExactSolver solver(pass, bound, root);
     const bool solved = solver.solve(optimum.cost, optimum.order);
     surface.domains += solver.domainCount();
@@ -92,13 +100,13 @@ bool solveDirectly(const Task& task, uint64_t maxSplits, Optimum& optimum, Surfa
 /// The same over some of the candidates only; the order is in numbers of the whole set.
 bool solveSubset(const Task& task, const std::vector<uint32_t>& kept, uint64_t maxSplits,
                  Optimum& optimum, Surface& surface) {
-  const size_t before = task.work.used();
+  const uint64_t before = task.work.used();
   CandidateSet subset;
   std::vector<double> cost;
   for (const uint32_t t : kept) cost.push_back(task.triangleCost[t]);
   const bool good = buildSubset(task.loops, task.set, kept, task.work, subset) &&
-                    solveDirectly({task.loops, subset, cost, task.measure, task.work}, maxSplits,
-                                  optimum, surface);
+                    solveDirectly({task.loops, subset, cost, task.measure, task.work, false},
+                                  maxSplits, optimum, surface);
   task.work.release(task.work.used() - before);
   for (uint32_t& t : optimum.order) t = kept[t];
   return good;
@@ -119,6 +127,7 @@ bool solveByFans(const Task& task, Optimum& optimum, Surface& surface) {
     task.work.setFraction(1 - 1 / (1 + 0.3 * round));
     if (!fans.ascend(300, best.cost) || !fans.excess(excess)) return false;
     if (fans.lowerBound() == kInfinity) break;
+    task.tell(best.cost, fans.lowerBound());
     byExcess.clear();
     for (uint32_t t = 0; t < excess.size(); ++t)
       if (excess[t] < kInfinity) byExcess.push_back(t);
@@ -140,7 +149,7 @@ bool solveByFans(const Task& task, Optimum& optimum, Surface& surface) {
       Optimum found;
       if (!solveSubset(task, kept, maxSplits, found, surface)) return false;
       if (found.cost < best.cost) best = found;
-      task.work.setBounds(best.cost, fans.lowerBound());
+      task.tell(best.cost, fans.lowerBound());
       // Whatever uses a triangle that was left out costs more than the best surface.
       if (found.reached && left() <= tried) {
         optimum = best;
@@ -160,8 +169,11 @@ bool solveByFans(const Task& task, Optimum& optimum, Surface& surface) {
 /// The optimum of one pass, from fraction `from` to `to` of the work.
 bool runPass(const Task& task, double from, double to, uint64_t firstSplits, Optimum& optimum,
              Surface& surface) {
-  const bool direct =
-      task.loops.loopCount() == 1 || task.measure.isWorst() || isLarge(task.loops, task.set);
+  // Hubs make fans expensive: their labels may take what some times the candidates do.
+  const double fanBytes = FanBound::bytesFor(task.loops, task.set);
+  const bool direct = task.loops.loopCount() == 1 || task.measure.isWorst() ||
+                      isLarge(task.loops, task.set) || !task.work.fits(fanBytes) ||
+                      fanBytes > 40 * CandidateSet::bytesFor(double(task.set.size()));
   task.work.phase(from, direct ? to : from + 0.2 * (to - from));
   if (!solveDirectly(task, direct ? kUnlimited : firstSplits, optimum, surface)) return false;
   if (optimum.reached) return true;
@@ -176,13 +188,13 @@ bool solveSurface(const LoopSet& loops, const CandidateSet& set, double dihedral
   surface = {};
   Optimum optimum;
   if (objective == Objective::Sum) {
-    const Task task{loops, set, set.weight, Measure::sum(dihedralWeight), work};
+    const Task task{loops, set, set.weight, Measure::sum(dihedralWeight), work, true};
     if (!runPass(task, 0, 1, firstSplits, optimum, surface)) return false;
     surface.lowerBound = optimum.cost;
   } else {
     const std::vector<double> angle =
         set.boundaryAngle.empty() ? std::vector<double>(set.size(), 0) : set.boundaryAngle;
-    if (!runPass({loops, set, angle, Measure::worst(), work}, 0, 0.5, firstSplits, optimum,
+    if (!runPass({loops, set, angle, Measure::worst(), work, true}, 0, 0.5, firstSplits, optimum,
                  surface))
       return false;
     if (optimum.cost == kInfinity) return true;
@@ -191,7 +203,7 @@ bool solveSurface(const LoopSet& loops, const CandidateSet& set, double dihedral
     std::vector<double> weight = set.weight;
     for (size_t t = 0; t < weight.size(); ++t)
       if (angle[t] > cap) weight[t] = kInfinity;
-    const Task task{loops, set, weight, Measure::sum(dihedralWeight, cap), work};
+    const Task task{loops, set, weight, Measure::sum(dihedralWeight, cap), work, false};
     if (!runPass(task, 0.5, 1, firstSplits, optimum, surface)) return false;
     SF_ASSERT(optimum.cost < kInfinity);
   }

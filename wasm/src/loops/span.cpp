@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/predicates.h"
 #include "delaunay/delaunay.h"
@@ -18,6 +19,20 @@ namespace {
 constexpr double kPatience = 3e8;
 /// Nearest neighbours of the `near` space, before it is widened.
 constexpr uint32_t kFirstReach = 8, kLastReach = 64;
+/// Candidates beyond which the `near` space is not widened further.
+constexpr double kMostNear = 4e6;
+/// Squares of coordinates have to stay finite.
+constexpr double kLargestCoordinate = 1e150;
+
+Outcome checkMagnitudes(const LoopSet& loops) {
+  for (uint32_t v = 0; v < loops.vertexCount(); ++v) {
+    const Vec3 p = loops.position(v);
+    const double largest = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    const uint32_t loop = loops.loopOf(v);
+    if (largest > kLargestCoordinate) return {Status::NotFinite, loop, v - loops.first(loop)};
+  }
+  return {};
+}
 
 Outcome checkOptions(const LoopSet& loops, const SpanOptions& options) {
   const double weights[] = {options.areaWeight, options.perimeterWeight, options.dihedralWeight};
@@ -30,7 +45,7 @@ Outcome checkOptions(const LoopSet& loops, const SpanOptions& options) {
     return {Status::BadWeights};
   for (size_t t = 0; t < options.triangleWeights.size(); ++t) {
     if (!(std::fabs(options.triangleWeights[t]) < kInfinity))
-      return {Status::BadWeights, kNone, uint32_t(t)};
+      return {Status::BadCandidates, kNone, uint32_t(t)};
     any = any || options.triangleWeights[t] != 0;
   }
   if (!any) return {Status::BadWeights};
@@ -72,16 +87,12 @@ class Spanning {
     std::vector<Vec3> scaled;
     exponent_ = scaleToUnit(loops.positions(), scaled);
     unit_ = LoopSet(scaled, loops.starts());
-    areaWeight_ = std::isnan(options.areaWeight) ? 1e-3 / squaredDiagonal()
-                                                 : std::ldexp(options.areaWeight, 2 * exponent_);
-    perimeterWeight_ = std::ldexp(options.perimeterWeight, exponent_);
+    scaleWeights();
   }
 
   Outcome run() {
-    // Costs are sums over many triangles, and have to stay far below infinity.
-    double largest = areaWeight_ + perimeterWeight_ + options_.dihedralWeight;
-    for (const double own : options_.triangleWeights) largest = std::max(largest, std::fabs(own));
-    if (!(largest < 1e290)) return {Status::BadWeights};
+    // The cost, a sum over the triangles, has to stay far below infinity.
+    if (costExponent_ > 960) return {Status::BadWeights};
     switch (options_.space) {
       case Space::All:
         return runAll();
@@ -95,12 +106,43 @@ class Spanning {
         break;
     }
     if (predictedTimeOfAllTriples(loops_) <= kPatience && allTriplesFit()) return runAll();
+    partShare_ = 0.5;
     Outcome outcome = runDelaunay();
     if (outcome.status == Status::NotFound) outcome = runNear();
     return outcome;
   }
 
  private:
+  /// Weights for unit_, times the power of two that brings the largest of them near 1: sums of very
+  /// large or very small ones neither overflow nor vanish.
+  void scaleWeights() {
+    const double area =
+        std::isnan(options_.areaWeight) ? 1e-3 / squaredDiagonal() : options_.areaWeight;
+    const int areaExponent = std::isnan(options_.areaWeight) ? 0 : 2 * exponent_;
+    double own = 0;
+    for (const double w : options_.triangleWeights) own = std::max(own, std::fabs(w));
+    costExponent_ = std::numeric_limits<int>::min();
+    const auto consider = [&](double w, int exponent) {
+      if (w > 0) costExponent_ = std::max(costExponent_, std::ilogb(w) + exponent);
+    };
+    consider(area, areaExponent);
+    consider(options_.perimeterWeight, exponent_);
+    consider(options_.dihedralWeight, 0);
+    consider(own, 0);
+    areaWeight_ = std::ldexp(area, areaExponent - costExponent_);
+    perimeterWeight_ = std::ldexp(options_.perimeterWeight, exponent_ - costExponent_);
+    dihedralWeight_ = std::ldexp(options_.dihedralWeight, -costExponent_);
+  }
+
+  /// The share of the work that the next space takes: half of what is left, while there are others.
+  void beginSpace(Space space) {
+    result_.space = space;
+    const double end = done_ + partShare_ * (1 - done_);
+    const bool isSum = options_.objective == Objective::Sum;
+    work_.beginPart(done_, end, isSum ? costExponent_ : 0);
+    done_ = end;
+  }
+
   double squaredDiagonal() const {
     Vec3 low = unit_.position(0), high = low;
     for (const Vec3& p : unit_.positions()) {
@@ -111,7 +153,7 @@ class Spanning {
   }
 
   bool looksAtAngles() const {
-    return options_.dihedralWeight > 0 || options_.objective == Objective::WorstDihedral;
+    return dihedralWeight_ > 0 || options_.objective == Objective::WorstDihedral;
   }
 
   bool allTriplesFit() const {
@@ -128,25 +170,26 @@ class Spanning {
     TriangleWeights weights;
     weights.area = areaWeight_;
     weights.perimeter = perimeterWeight_;
-    weights.dihedral = options_.dihedralWeight;
+    weights.dihedral = dihedralWeight_;
     weights.normals = problem.normals;
     weights.own = own;
     return weights;
   }
 
   Outcome runAll() {
+    partShare_ = 1;
+    beginSpace(Space::All);
     if (!allTriplesFit()) return {Status::TooLarge};
     if (loops_.loopCount() == 1) return runPolygon();
     std::vector<uint32_t> triples;
     if (!allTriples(unit_, work_, triples)) return {work_.status()};
-    return solve(unchangedProblem(unit_, options_), std::move(triples), {}, Space::All);
+    return solve(unchangedProblem(unit_, options_), std::move(triples), {});
   }
 
   Outcome runPolygon() {
     const Problem problem = unchangedProblem(unit_, options_);
     const TriangleWeights weights = triangleWeights(problem, {});
     PolygonSurface polygon;
-    result_.space = Space::All;
     const double n = loops_.vertexCount();
     result_.candidates = uint64_t(n * (n - 1) * (n - 2) / 6);
     result_.domains = uint64_t(n * (n - 1) / 2);
@@ -154,7 +197,7 @@ class Spanning {
     if (!solvePolygon(unit_, weights, options_.objective, work_, polygon)) return {work_.status()};
     if (!polygon.found) return {Status::NotFound};
     CandidateSet set;
-    const size_t before = work_.used();
+    const uint64_t before = work_.used();
     const bool built = buildCandidateSet(unit_, weights, std::move(polygon.triangles), work_, set);
     work_.release(work_.used() - before);
     if (!built) return {work_.status()};
@@ -167,16 +210,20 @@ class Spanning {
   }
 
   Outcome runGiven() {
+    beginSpace(Space::Given);
+    if (!work_.fits(bytesToSolve(double(options_.triangles.size() / 3)))) return {Status::TooLarge};
     std::vector<uint32_t> triples, order;
     const Outcome outcome = givenTriples(unit_, options_.triangles, work_, triples, order);
     if (!outcome.ok()) return outcome;
     std::vector<double> own;
     if (!options_.triangleWeights.empty())
-      for (const uint32_t index : order) own.push_back(options_.triangleWeights[index]);
-    return solve(unchangedProblem(unit_, options_), std::move(triples), own, Space::Given);
+      for (const uint32_t index : order)
+        own.push_back(std::ldexp(options_.triangleWeights[index], -costExponent_));
+    return solve(unchangedProblem(unit_, options_), std::move(triples), own);
   }
 
   Outcome runDelaunay() {
+    beginSpace(Space::Delaunay);
     ProtectedLoops safe;
     const Status status = protectEdges(unit_, work_, safe);
     if (status != Status::Ok) return {status};
@@ -205,36 +252,41 @@ class Spanning {
     std::vector<uint32_t> triples;
     if (!facetTriples(safe.loops, safe.facets, work_, triples)) return {work_.status()};
     problem.loops = std::move(safe.loops);
-    return solve(problem, std::move(triples), {}, Space::Delaunay);
+    return solve(problem, std::move(triples), {});
   }
 
   Outcome runNear() {
+    partShare_ = 0.5;
+    beginSpace(Space::Near);
     Delaunay cells;
     const Status status = delaunay(unit_.positions(), work_, cells);
     if (status != Status::Ok) return {status};
-    for (uint32_t reach = kFirstReach; reach <= kLastReach; reach *= 2) {
+    for (uint32_t reach = kFirstReach;; reach *= 2) {
+      if (reach > kFirstReach) beginSpace(Space::Near);
+      const double predicted = predictedNearTriples(unit_, reach) + double(cells.facets.size() / 3);
+      if (reach > kFirstReach && predicted > kMostNear) break;
+      if (!work_.fits(bytesToSolve(predicted))) return {Status::TooLarge};
       std::vector<uint32_t> triples;
       if (!nearTriples(unit_, cells.facets, reach, work_, triples)) return {work_.status()};
-      const Outcome outcome =
-          solve(unchangedProblem(unit_, options_), std::move(triples), {}, Space::Near);
-      if (outcome.status != Status::NotFound || reach >= loops_.vertexCount()) return outcome;
+      const Outcome outcome = solve(unchangedProblem(unit_, options_), std::move(triples), {});
+      if (outcome.status != Status::NotFound) return outcome;
+      if (reach >= kLastReach || reach >= loops_.vertexCount()) break;
     }
     return options_.space == Space::Auto && allTriplesFit() ? runAll() : Outcome{Status::NotFound};
   }
 
   Outcome solve(const Problem& problem, std::vector<uint32_t> triples,
-                const std::vector<double>& own, Space space) {
-    result_.space = space;
+                const std::vector<double>& own) {
     result_.candidates = triples.size() / 3;
     const double bytes = bytesToSolve(double(result_.candidates));
     if (!work_.fits(bytes)) return {Status::TooLarge};
     const TriangleWeights weights = triangleWeights(problem, own);
     CandidateSet set;
     Surface surface;
-    const size_t before = work_.used();
-    const bool done = buildCandidateSet(problem.loops, weights, std::move(triples), work_, set) &&
-                      solveSurface(problem.loops, set, options_.dihedralWeight, options_.objective,
-                                   work_, surface);
+    const uint64_t before = work_.used();
+    const bool done =
+        buildCandidateSet(problem.loops, weights, std::move(triples), work_, set) &&
+        solveSurface(problem.loops, set, dihedralWeight_, options_.objective, work_, surface);
     work_.release(work_.used() - before);
     result_.domains += surface.domains;
     result_.minimalSets += surface.minimalSets;
@@ -255,7 +307,10 @@ class Spanning {
   Span& result_;
   LoopSet unit_;  // loops_ divided by 2^exponent_
   int exponent_ = 0;
-  double areaWeight_ = 0, perimeterWeight_ = 0;  // per unit of unit_
+  double areaWeight_ = 0, perimeterWeight_ = 0;  // per unit of unit_, times 2^-costExponent_
+  double dihedralWeight_ = 0;                    // times 2^-costExponent_
+  int costExponent_ = 0;
+  double done_ = 0, partShare_ = 1;  // of the work: what past spaces took, what the next may
 };
 
 /// Turns the triangles so that neighbours agree and the first triangle with an edge of the first
@@ -343,8 +398,10 @@ void Spanning::measure(const Problem& problem, const CandidateSet& set,
   }
   result_.cost = options_.objective == Objective::WorstDihedral
                      ? terms.worstDihedral
-                     : areaWeight_ * terms.area + perimeterWeight_ * terms.perimeter +
-                           options_.dihedralWeight * terms.dihedral + terms.own;
+                     : std::ldexp(areaWeight_ * terms.area + perimeterWeight_ * terms.perimeter +
+                                      dihedralWeight_ * terms.dihedral + terms.own,
+                                  costExponent_);
+  terms.own = std::ldexp(terms.own, costExponent_);
   terms.area = std::ldexp(terms.area, 2 * exponent_);
   terms.perimeter = std::ldexp(terms.perimeter, exponent_);
 }
@@ -370,14 +427,17 @@ void Spanning::handBack(const Problem& problem, const CandidateSet& set, const S
   measure(problem, set, triangles, own);
   // Sums in another order differ in the last digits: that alone makes no gap.
   const bool exactSum = surface.optimal && options_.objective == Objective::Sum;
-  result_.lowerBound = exactSum ? result_.cost : std::min(result_.cost, surface.lowerBound);
+  const int unit = options_.objective == Objective::Sum ? costExponent_ : 0;
+  result_.lowerBound =
+      exactSum ? result_.cost : std::min(result_.cost, std::ldexp(surface.lowerBound, unit));
 }
 
 }  // namespace
 
 Outcome spanLoops(const LoopSet& loops, const SpanOptions& options, Work& work, Span& result) {
   result = {};
-  Outcome outcome = checkLoops(loops, true, work);
+  Outcome outcome = checkMagnitudes(loops);
+  if (outcome.ok()) outcome = checkLoops(loops, true, work);
   if (outcome.ok()) outcome = checkOptions(loops, options);
   if (outcome.ok()) outcome = Spanning(loops, options, work, result).run();
   if (outcome.status == Status::NotFound) return {};
