@@ -275,6 +275,23 @@ describe('formatObj', () => {
     );
   });
 
+  test('a span: its loops, with an inserted vertex in its place, are read back', () => {
+    const tent = {
+      positions: Float64Array.of(0, 0, 0.1, 1, 0, 0, 1, 1, 0.1, 0, 1, 0, 5, 5, 5, 6, 5, 5, 5, 6, 5, 0.5, 0, 0.05),
+      triangles: Uint32Array.of(0, 7, 3, 7, 1, 2, 7, 2, 3, 4, 5, 6),
+      loopVertices: Uint32Array.of(0, 7, 1, 2, 3, 4, 5, 6),
+      starts: Uint32Array.of(0, 5, 8),
+    };
+    const text = formatObj(tent, { name: 'tent' });
+    expect(text).toContain('f 5 6 7\nl 1 8 2 3 4 1\nl 5 6 7 5\n');
+    const loops = parseLoops(text);
+    expect(loops.name).toBe('tent');
+    expect(loops.starts).toEqual(tent.starts);
+    expect(loops.positions).toEqual(
+      Float64Array.from([...tent.loopVertices].flatMap((v) => [...tent.positions.subarray(3 * v, 3 * v + 3)])),
+    );
+  });
+
   test('precision: significant digits', () => {
     expect(formatObj(surface, { precision: 3 })).toContain('v 0.333 0 -0\n');
     for (const precision of [0, 18, 2.5, NaN]) {

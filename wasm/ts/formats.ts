@@ -2,7 +2,7 @@
 import { SoapfilmError, type ErrorPlace } from './errors.js';
 import { jsonLine } from './jsonline.js';
 import { toLoopSet } from './loopset.js';
-import type { LoopSet, LoopsLike } from './types.js';
+import type { LoopSet, LoopsLike, Span } from './types.js';
 
 /**
  * - `curve`: the number of loops, the number of all vertices, then for each loop its number of
@@ -88,18 +88,20 @@ export function formatLoops(
 }
 
 /**
- * A triangulated surface, such as a `Span`, as Wavefront OBJ.
+ * A triangulated surface, such as a `Span`, as Wavefront OBJ. Its boundary loops, if given, are
+ * written as closed polylines `l`, so that `parseLoops` reads them back.
  *
- * @param surface `positions` [3n] xyz; `triangles` [3m] vertex indices
+ * @param surface `positions` [3n] xyz; `triangles` [3m] vertex indices; `loopVertices` vertex
+ *   indices of the boundary loops, `starts` [k + 1] offsets into them
  * @param options `name` of the object; `precision`: significant digits, 1 to 17, default as many
  *   as it takes to read back the same numbers
  * @throws SoapfilmError `not-finite` (`.vertex`), `bad-option`
  */
 export function formatObj(
-  surface: { readonly positions: Float64Array; readonly triangles: Uint32Array },
+  surface: Pick<Span, 'positions' | 'triangles'> & Partial<Pick<Span, 'loopVertices' | 'starts'>>,
   options: { readonly name?: string; readonly precision?: number } = {},
 ): string {
-  const { positions, triangles } = surface;
+  const { positions, triangles, loopVertices, starts } = surface;
   const { name, precision } = options;
   if (precision !== undefined && !(Number.isInteger(precision) && precision >= 1 && precision <= 17)) {
     throw new SoapfilmError('bad-option', '`precision` is a whole number from 1 to 17');
@@ -110,6 +112,12 @@ export function formatObj(
   }
   for (let i = 0; i + 2 < triangles.length; i += 3) {
     lines.push(`f ${triangles[i] + 1} ${triangles[i + 1] + 1} ${triangles[i + 2] + 1}`);
+  }
+  if (loopVertices && starts) {
+    starts.subarray(1).forEach((end, loop) => {
+      const closed = [...loopVertices.subarray(starts[loop], end), loopVertices[starts[loop]]];
+      lines.push(`l ${closed.map((vertex) => vertex + 1).join(' ')}`);
+    });
   }
   return [...lines, ''].join('\n');
 }
