@@ -1,7 +1,7 @@
 import { readFile } from 'node:fs/promises';
 import { parseLoops } from 'soapfilm';
 import type { Page } from '@playwright/test';
-import { expect, expectSpans, hasCurves, openPage, spanned, stateOf, test } from './support.ts';
+import { changedShare, expect, expectSpans, hasCurves, openPage, spanned, stateOf, test } from './support.ts';
 
 const kTwoSquares = `2 8
 4
@@ -67,6 +67,49 @@ test('open by dropping: JSON and OBJ lines', async ({ quietPage: page }) => {
   await drop(page, 'b.obj', 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 1.5 1\nl 1 2 3 4 5 1\n');
   await expect.poll(async () => (await stateOf(page)).curves.map((curve) => curve.length)).toEqual([5]);
   expectSpans((await spanned(page)).span, 1);
+});
+
+test('curves of any size and place: drawn alike, and a good file afterwards as before', async ({ quietPage: page }) => {
+  await openPage(page);
+  const tent = (size: number, away: number) => {
+    const points = [[0, 0, 0.3], [1, 0, 0], [1, 1, 0.3], [0, 1, 0]];
+    return JSON.stringify([points.map((point) => point.map((x) => size * (x + away)))]);
+  };
+  const surfaceShare = () =>
+    changedShare(page, async () => {
+      await page.getByRole('switch', { name: 'Surface' }).click();
+    });
+  await openWith(page, 'tent.json', tent(1, 0));
+  await spanned(page);
+  const share = await surfaceShare();
+  expect(share).toBeGreaterThan(0.05);
+  await surfaceShare();
+  for (const [size, away] of [[1e-30, 0], [1e-6, 0], [1e30, 0], [1e100, 0], [1, 1e7], [1, 0]]) {
+    await openWith(page, 'tent.json', tent(size, away));
+    await expect.poll(async () => (await stateOf(page)).curves[0][1][0]).toBe(size * (1 + away));
+    const { span } = await spanned(page);
+    expectSpans(span, 1);
+    await page.getByRole('button', { name: 'Dismiss' }).click();
+    expect(Math.abs((await surfaceShare()) / share - 1), `size ${size}, away ${away}`).toBeLessThan(0.02);
+    await surfaceShare();
+  }
+});
+
+test('coordinates too large to reckon with: an error in words, and a good file afterwards is drawn', async ({
+  quietPage: page,
+}) => {
+  await openPage(page);
+  for (const far of ['1e300', '1.7e308']) {
+    await openWith(page, 'far.json', `[[[0,0,${far}],[${far},0,0],[0,-${far},0]]]`);
+    await expect.poll(async () => (await stateOf(page)).message).toContain('1e150');
+    await openWith(page, 'box.curve', kTwoSquares);
+    await spanned(page);
+    const share = await changedShare(page, async () => {
+      await page.getByRole('switch', { name: 'Surface' }).click();
+    });
+    expect(share).toBeGreaterThan(0.05);
+    await page.getByRole('switch', { name: 'Surface' }).click();
+  }
 });
 
 test('export: the OBJ holds the surface shown, the curves come back bit for bit', async ({ quietPage: page }) => {

@@ -7,6 +7,7 @@ import type { Curve } from '../state/document.ts';
 import type { Selection } from '../state/store.ts';
 import type { Fault } from '../state/wording.ts';
 import type { Point } from '../shapes/vec.ts';
+import { kIdentity, toScene, type Placement } from './placement.ts';
 
 const kPointVertexShader = /* glsl */ `
 attribute float size;
@@ -50,6 +51,11 @@ export interface CurveColors {
   readonly rim: string;
 }
 
+export interface PenColors {
+  readonly line: string;
+  readonly faint: string;
+}
+
 export interface Marks {
   readonly selection: Selection | null;
   readonly hover: Selection | null;
@@ -65,6 +71,7 @@ export class CurvesLayer {
   readonly group = new Group();
   private colors: CurveColors = { line: '#888', selected: '#888', fault: '#888', inserted: '#888', rim: '#888' };
   private lines = new Map<Curve, Line2>();
+  private placement = kIdentity;
   private readonly faultEdges: Line2[] = [];
   private readonly points: Points<BufferGeometry, ShaderMaterial>;
 
@@ -87,10 +94,15 @@ export class CurvesLayer {
   }
 
   /** Draws the curves as they are now; a curve that is the same object keeps its line. */
-  update(curves: readonly Curve[], marks: Marks, pixelRatio: number): void {
+  update(curves: readonly Curve[], marks: Marks, placement: Placement, pixelRatio: number): void {
+    if (placement !== this.placement) {
+      this.lines.forEach(drop);
+      this.lines.clear();
+      this.placement = placement;
+    }
     const lines = new Map<Curve, Line2>();
     curves.forEach((curve, c) => {
-      const line = this.lines.get(curve) ?? makeLine(curve, true);
+      const line = this.lines.get(curve) ?? makeLine(curve, true, placement);
       lines.set(curve, line);
       this.group.add(line);
       const isFault = marks.faults.some((f) => f.curve === c && f.vertex === undefined);
@@ -110,7 +122,7 @@ export class CurvesLayer {
     for (const { curve, vertex, isEdge } of faults) {
       const points = curves.at(curve);
       if (!isEdge || vertex === undefined || points === undefined || !(vertex in points)) continue;
-      const line = makeLine([points[vertex], points[(vertex + 1) % points.length]], false);
+      const line = makeLine([points[vertex], points[(vertex + 1) % points.length]], false, this.placement);
       line.material.color.set(this.colors.fault);
       line.material.linewidth = kLineWidth + 3;
       line.material.depthTest = false;
@@ -126,7 +138,7 @@ export class CurvesLayer {
     const size: number[] = [];
     const kind: number[] = [];
     const put = (p: Point, color: string, diameter: number, shape = 0) => {
-      position.push(...p);
+      position.push(...toScene(this.placement, p));
       fill.push(...new Color(color).toArray());
       size.push(diameter);
       kind.push(shape);
@@ -159,18 +171,17 @@ export class PenLayer {
   readonly group = new Group();
   private lines: Line2[] = [];
 
-  show(raw: readonly Point[], closed: readonly Point[] | null, color: string, faint: string): void {
+  show(raw: readonly Point[], closed: readonly Point[] | null, placement: Placement, colors: PenColors): void {
     this.clear();
-    if (raw.length > 1) this.add(raw, false, faint, 1.5);
-    if (closed) this.add(closed, true, color, kLineWidth);
+    if (raw.length > 1) this.add(makeLine(raw, false, placement), colors.faint, 1.5);
+    if (closed) this.add(makeLine(closed, true, placement), colors.line, kLineWidth);
   }
 
   clear(): void {
     this.lines.splice(0).forEach(drop);
   }
 
-  private add(points: readonly Point[], isClosed: boolean, color: string, width: number): void {
-    const line = makeLine(points, isClosed);
+  private add(line: Line2, color: string, width: number): void {
     line.material.color.set(color);
     line.material.linewidth = width;
     line.material.depthTest = false;
@@ -180,9 +191,10 @@ export class PenLayer {
   }
 }
 
-function makeLine(points: readonly Point[], closed: boolean): Line2 {
+function makeLine(points: readonly Point[], closed: boolean, placement: Placement): Line2 {
   const geometry = new LineGeometry();
-  geometry.setPositions((closed ? [...points, points[0]] : points).flat());
+  const path = closed ? [...points, points[0]] : points;
+  geometry.setPositions(path.flatMap((point) => toScene(placement, point)));
   const line = new Line2(geometry, new LineMaterial({ linewidth: kLineWidth }));
   line.frustumCulled = false;
   return line;

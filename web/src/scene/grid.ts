@@ -11,6 +11,7 @@ import {
   Vector3,
 } from 'three';
 import type { Frame, PlaneKind } from '../shapes/plane.ts';
+import { toScene, type Placement } from './placement.ts';
 
 const kVertexShader = /* glsl */ `
 uniform float uExtent;
@@ -90,7 +91,7 @@ export class PlaneGrid {
    * Lays the grid into a plane, for a scene of a radius. In use it cuts through what is there, as
    * the plane does; otherwise it is a backdrop.
    */
-  place(kind: PlaneKind, frame: Frame, radius: number, isInUse: boolean): void {
+  place(kind: PlaneKind, frame: Frame, radius: number, isInUse: boolean, placement: Placement): void {
     this.kind = kind;
     const { material } = this.mesh;
     material.depthTest = isInUse;
@@ -102,10 +103,10 @@ export class PlaneGrid {
       new Vector3().fromArray(frame.normal),
     );
     this.mesh.quaternion.setFromRotationMatrix(basis);
-    this.mesh.position.fromArray(frame.origin);
+    this.mesh.position.fromArray(toScene(placement, frame.origin));
     const { uniforms } = material;
-    uniforms.uExtent.value = 3.2 * radius;
-    uniforms.uStep.value = gridStep(radius);
+    uniforms.uExtent.value = (3.2 * radius) / placement.unit;
+    uniforms.uStep.value = gridStep(radius) / placement.unit;
     uniforms.uOpacity.value = isInUse ? 1 : 0.6;
     this.applyColors();
   }

@@ -5,7 +5,6 @@ import { fromPlane, meetPlane, toPlane, type Frame, type Point2 } from '../shape
 import { add, subtract, type Point } from '../shapes/vec.ts';
 import { setLive } from '../state/solving.ts';
 import { cancelGesture, dispatch, doc, drawing, endGesture, hover, isGrowing, say, selection, tool } from '../state/store.ts';
-import { Vector3 } from 'three';
 import type { Stage } from './stage.ts';
 
 /** What a press has begun; a press that neither draws nor drags a vertex has none. */
@@ -52,7 +51,7 @@ export function attachPointer(stage: Stage): PointerTools {
       return true;
     }
     selection.value = null;
-    const pixel = view.pixelSize(new Vector3(...start));
+    const pixel = view.pixelSize(start);
     action = { kind: 'stroke', pointer: event.pointerId, frame, stroke: [toPlane(frame, start)], pixel, press: event };
     return true;
   };
@@ -145,7 +144,7 @@ export function attachPointer(stage: Stage): PointerTools {
     const outcome = closed(stroke, pixel);
     const curve = 'points' in outcome ? outcome.points.map((p) => fromPlane(frame, p)) : null;
     const raw = stroke.map((p) => fromPlane(frame, p));
-    stage.pen.show(raw, curve, stage.theme.pen.line, stage.theme.pen.faint);
+    stage.pen.show(raw, curve, stage.placement.peek(), stage.theme.pen);
     view.invalidate();
   };
 

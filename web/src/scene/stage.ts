@@ -1,5 +1,5 @@
 // The stage draws the state: it listens to the signals and moves the objects of the view.
-import { effect } from '@preact/signals';
+import { computed, effect } from '@preact/signals';
 import { Vector3 } from 'three';
 import { coordinatePlane, viewPlane, type Frame } from '../shapes/plane.ts';
 import { boundsOf, type Point } from '../shapes/vec.ts';
@@ -8,6 +8,7 @@ import { isStale, solve, surface, type Surface } from '../state/solving.ts';
 import { doc, drawing, framing, hover, isGrowing, selection, shown, tool, type Drawing, type Selection } from '../state/store.ts';
 import { CurvesLayer, PenLayer } from './curves.ts';
 import { PlaneGrid } from './grid.ts';
+import { kIdentity, placementFor } from './placement.ts';
 import { SurfaceMesh } from './surface.ts';
 import { readTheme, type Theme } from './theme.ts';
 import { prefersReducedMotion, View, type ViewOptions } from './view.ts';
@@ -18,10 +19,23 @@ const kEmptyRadius = 1.5;
 export class Stage {
   readonly view: View;
   readonly pen = new PenLayer();
+  /** Computed, so that whatever draws the document finds the placement that goes with it. */
+  readonly placement = computed(() => {
+    this.placed = placementFor(boundsOf(doc.value.curves), this.placed);
+    return this.placed;
+  });
   theme: Theme;
+  /** The surface, unless it is stale and of curves that lie elsewhere by far. */
+  private readonly drawn = computed(() => {
+    const present = this.placement.value;
+    const bounds = surface.value && boundsOf(surface.value.of.curves);
+    return bounds && placementFor(bounds, present) === present ? surface.value : null;
+  });
   private readonly surfaceMesh = new SurfaceMesh();
   private readonly curves = new CurvesLayer();
   private readonly grid = new PlaneGrid();
+  private placed = kIdentity;
+  private viewPlaced = kIdentity;
   private growSince = 0;
 
   constructor(container: HTMLElement, canvas: HTMLCanvasElement, options: ViewOptions) {
@@ -36,19 +50,22 @@ export class Stage {
       if (drawing.peek().plane === 'view') this.replaceGrid();
     });
     effect(() => {
+      this.followSize(doc.value.curves);
+    });
+    effect(() => {
+      if (this.drawn.value) this.surfaceMesh.setSpan(this.drawn.value.span, this.placement.value);
+    });
+    effect(() => {
       this.showSurface(surface.value);
     });
     effect(() => {
       const { surface: visible, wires } = shown.value;
-      this.surfaceMesh.mesh.visible = visible && surface.value !== null;
+      this.surfaceMesh.mesh.visible = visible && this.drawn.value !== null;
       this.surfaceMesh.setLook({ wires, faded: isStale.value });
       this.view.invalidate();
     });
     effect(() => {
       this.drawCurves();
-    });
-    effect(() => {
-      this.followSize(doc.value.curves);
     });
     effect(() => {
       this.placeGrid(drawing.value, shown.value.grid, tool.value === 'draw');
@@ -67,7 +84,7 @@ export class Stage {
     const { plane, offset } = drawing.peek();
     if (plane !== 'view') return coordinatePlane(plane, offset);
     const { right, up } = this.view.axes();
-    return viewPlane(this.view.controls.target.toArray(), right, up, offset);
+    return viewPlane(this.view.target, right, up, offset);
   }
 
   /** The plane through a point in which it is dragged. */
@@ -131,7 +148,6 @@ export class Stage {
     this.view.stop(this.grow);
     isGrowing.value = false;
     if (shownSurface) {
-      this.surfaceMesh.setSpan(shownSurface.span);
       this.surfaceMesh.setGrowth(1);
       if (shownSurface.entrance === 'grow' && !prefersReducedMotion()) {
         this.surfaceMesh.setGrowth(0);
@@ -158,6 +174,7 @@ export class Stage {
         inserted,
         vertices: shown.value.vertices,
       },
+      this.placement.value,
       this.view.renderer.getPixelRatio(),
     );
     this.view.invalidate();
@@ -165,16 +182,20 @@ export class Stage {
 
   private followSize(curves: readonly Curve[]): void {
     const radius = boundsOf(curves).diagonal / 2 || kEmptyRadius;
+    const placement = this.placement.value;
+    const isPlacedAnew = placement !== this.viewPlaced;
+    this.viewPlaced = placement;
+    if (isPlacedAnew) this.view.place(placement);
     const ratio = radius / this.view.radius;
     // Not at every step of a drag: the grid would crawl.
-    if (ratio < 1.3 && ratio > 0.5) return;
+    if (!isPlacedAnew && ratio < 1.3 && ratio > 0.5) return;
     this.view.radius = radius;
     this.replaceGrid();
   }
 
   private placeGrid({ plane }: Drawing, isShown: boolean, isDrawing: boolean): void {
     this.grid.mesh.visible = isShown || isDrawing;
-    this.grid.place(plane, this.drawingPlane(), this.view.radius, isDrawing);
+    this.grid.place(plane, this.drawingPlane(), this.view.radius, isDrawing, this.placement.peek());
     this.view.invalidate();
   }
 

@@ -1,6 +1,7 @@
 // The spanned surface: lit on both sides, with its edges, growing triangle by triangle.
 import { BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, ShaderMaterial, Vector3 } from 'three';
 import type { Span } from 'soapfilm';
+import { toScene, type Placement } from './placement.ts';
 
 /** Share of the whole growth that one triangle takes to unfold. */
 const kUnfold = 0.16;
@@ -100,7 +101,7 @@ export class SurfaceMesh {
     this.mesh.frustumCulled = false;
   }
 
-  setSpan(span: Span): void {
+  setSpan(span: Span, placement: Placement): void {
     const m = span.order.length;
     const position = new Float32Array(9 * m);
     const normal = new Float32Array(9 * m);
@@ -109,7 +110,11 @@ export class SurfaceMesh {
     const birth = new Float32Array(3 * m);
     const [a, b, c, n, g] = [new Vector3(), new Vector3(), new Vector3(), new Vector3(), new Vector3()];
     span.order.forEach((triangle, rank) => {
-      [a, b, c].forEach((point, i) => point.fromArray(span.positions, 3 * span.triangles[3 * triangle + i]));
+      [a, b, c].forEach((point, i) => {
+        const at = 3 * span.triangles[3 * triangle + i];
+        const [x, y, z] = span.positions.subarray(at, at + 3);
+        point.set(...toScene(placement, [x, y, z]));
+      });
       g.copy(a).add(b).add(c).divideScalar(3);
       n.copy(b).sub(a).cross(g.copy(c).sub(a)).normalize();
       g.copy(a).add(b).add(c).divideScalar(3);

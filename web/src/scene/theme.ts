@@ -1,5 +1,5 @@
 // The colours of the scene, taken from the style sheet so that light and dark live in one place.
-import type { CurveColors } from './curves.ts';
+import type { CurveColors, PenColors } from './curves.ts';
 import type { GridColors } from './grid.ts';
 import type { SurfaceColors } from './surface.ts';
 
@@ -8,7 +8,7 @@ export interface Theme {
   readonly surface: SurfaceColors;
   readonly curves: CurveColors;
   readonly grid: GridColors;
-  readonly pen: { readonly line: string; readonly faint: string };
+  readonly pen: PenColors;
 }
 
 export function readTheme(): Theme {

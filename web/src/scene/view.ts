@@ -1,4 +1,5 @@
-// The view: renderer, camera, orbit. Draws on demand, and only then.
+// The view: renderer, camera, orbit. Draws on demand, and only then. Points and lengths in its
+// methods are the world's; the camera itself is in the scene.
 import {
   Color,
   PerspectiveCamera,
@@ -10,6 +11,7 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Point } from '../shapes/vec.ts';
+import { kIdentity, toScene, toWorld, type Placement } from './placement.ts';
 
 export interface ViewOptions {
   readonly antialias: boolean;
@@ -35,6 +37,8 @@ interface Spherical {
 
 const kFlightMs = 420;
 const kPole = 1e-4;
+/** How far from the origin an eye is taken along into another placement, in units of the scene. */
+const kFarthest = 1e4;
 
 export class View {
   readonly scene = new Scene();
@@ -43,6 +47,7 @@ export class View {
   readonly controls: OrbitControls;
   /** Radius of what there is to see; the near and far planes follow it. */
   radius = 2;
+  private placement = kIdentity;
   private readonly animations = new Set<Animation>();
   private readonly cameraListeners = new Set<() => void>();
   private pending = 0;
@@ -62,6 +67,7 @@ export class View {
     this.controls.dampingFactor = 0.12;
     this.controls.zoomToCursor = true;
     this.controls.minDistance = 1e-4;
+    this.controls.maxDistance = kFarthest;
     this.controls.addEventListener('change', () => {
       this.invalidate();
       for (const listener of this.cameraListeners) listener();
@@ -79,6 +85,32 @@ export class View {
       ? { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.ROTATE }
       : { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
     this.controls.touches = { ONE: TOUCH.ROTATE, TWO: whileDrawing ? TOUCH.DOLLY_ROTATE : TOUCH.DOLLY_PAN };
+  }
+
+  /** What the view turns about. */
+  get target(): Point {
+    return toWorld(this.placement, this.controls.target.toArray());
+  }
+
+  /**
+   * Places the world anew. The eye stays where it is in the world; where that would be out of
+   * reach, in the scene.
+   */
+  place(placement: Placement): void {
+    const move = (at: Vector3) =>
+      new Vector3(...toScene(placement, toWorld(this.placement, at.toArray())));
+    const target = move(this.controls.target);
+    const eye = move(this.camera.position);
+    this.placement = placement;
+    this.flight = null;
+    const distance = eye.distanceTo(target);
+    // NaN is out of reach as well.
+    if (target.length() < kFarthest && distance < kFarthest && distance > 1 / kFarthest) {
+      this.controls.target.copy(target);
+      this.camera.position.copy(eye);
+    }
+    this.controls.update();
+    this.invalidate();
   }
 
   /** Asks for a frame. */
@@ -116,8 +148,8 @@ export class View {
     this.resize();
     const half = (this.camera.fov * Math.PI) / 360;
     const across = Math.min(1, this.camera.aspect);
-    const distance = (1.04 * radius) / Math.sin(Math.atan(Math.tan(half) * across));
-    const target = new Vector3(...center);
+    const distance = (1.04 * radius) / this.placement.unit / Math.sin(Math.atan(Math.tan(half) * across));
+    const target = new Vector3(...toScene(this.placement, center));
     const eye = direction
       ? toSpherical(new Vector3(...direction))
       : toSpherical(this.camera.position.clone().sub(this.controls.target));
@@ -175,15 +207,15 @@ export class View {
   };
 
   /** World units a CSS pixel at a point. */
-  pixelSize(at: Vector3): number {
-    const depth = at.clone().applyMatrix4(this.camera.matrixWorldInverse).z;
+  pixelSize(at: Point): number {
+    const depth = new Vector3(...toScene(this.placement, at)).applyMatrix4(this.camera.matrixWorldInverse).z;
     const half = Math.tan((this.camera.fov * Math.PI) / 360);
-    return (2 * Math.abs(depth) * half) / this.container.clientHeight;
+    return (2 * Math.abs(depth) * half * this.placement.unit) / this.container.clientHeight;
   }
 
   /** CSS pixels from the canvas's top left, and whether the point lies before the eye. */
   project(point: Point): { x: number; y: number; visible: boolean } {
-    const p = new Vector3(...point).project(this.camera);
+    const p = new Vector3(...toScene(this.placement, point)).project(this.camera);
     return {
       x: ((p.x + 1) / 2) * this.container.clientWidth,
       y: ((1 - p.y) / 2) * this.container.clientHeight,
@@ -200,7 +232,7 @@ export class View {
       0.5,
     );
     const direction = ndc.unproject(this.camera).sub(this.camera.position).normalize();
-    return { from: this.camera.position.toArray(), direction: direction.toArray() };
+    return { from: toWorld(this.placement, this.camera.position.toArray()), direction: direction.toArray() };
   }
 
   /** The screen's axes in the world. */
@@ -243,8 +275,9 @@ export class View {
     // Damping moves the camera on; the change event asks for the next frame.
     this.controls.update();
     const distance = this.camera.position.distanceTo(this.controls.target);
-    this.camera.near = Math.max(distance / 200, distance - 6 * this.radius);
-    this.camera.far = distance + 40 * Math.max(this.radius, distance);
+    const radius = this.radius / this.placement.unit;
+    this.camera.near = Math.max(distance / 200, distance - 6 * radius);
+    this.camera.far = distance + 40 * Math.max(radius, distance);
     this.camera.updateProjectionMatrix();
     this.renderer.render(this.scene, this.camera);
   }

@@ -15,6 +15,9 @@ export const cross = (a: Point, b: Point): Point => [
 export const length = (a: Point): number => Math.hypot(a[0], a[1], a[2]);
 export const normalize = (a: Point): Point => scale(a, 1 / (length(a) || 1));
 
+/** Less than the largest number by enough for a few factors more. */
+const kLargest = 2 ** 1000;
+
 export interface Bounds {
   readonly center: Point;
   /** Length of the bounding box's diagonal; 0 for one point and for none. */
@@ -35,7 +38,8 @@ export function boundsOf(curves: readonly (readonly Point[])[]): Bounds {
   }
   if (low[0] > high[0]) return { center: [0, 0, 0], diagonal: 0 };
   return {
-    center: [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2],
-    diagonal: Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]),
+    // Halved first, since the sum of the largest numbers is infinite.
+    center: [low[0] / 2 + high[0] / 2, low[1] / 2 + high[1] / 2, low[2] / 2 + high[2] / 2],
+    diagonal: Math.min(Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]), kLargest),
   };
 }

@@ -45,7 +45,7 @@ function messageOf(error: SoapfilmError, [first, second]: readonly (Fault | unde
       return `Two vertices lie exactly on each other: ${placeOf(first)} and ${placeOf(second)}.`;
     case 'not-finite':
       if (!first) break;
-      return `A coordinate is not a finite number: ${placeOf(first)}.`;
+      return `A coordinate is larger than can be reckoned with (1e150): ${placeOf(first)}.`;
     case 'too-few-vertices':
       if (!first) break;
       return `Curve ${first.curve + 1} has fewer than three vertices.`;
