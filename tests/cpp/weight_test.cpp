@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include "base/accurate_cross.h"
+#include "support/generators.h"
+
 using namespace sf;
 
 TEST_CASE("weight: dihedral angle is 0 where flat and pi where folded, on both sides of the cut") {
@@ -29,4 +32,30 @@ TEST_CASE("weight: rounding is no improvement, more than rounding is") {
   CHECK(sum.improves(1 - 1e-12, 1));
   CHECK(sum.improves(-1, 0));
   CHECK_FALSE(Measure::worst().improves(1, 1));
+}
+
+TEST_CASE("accurate cross product: full precision for triangles of almost collinear points") {
+  sftest::Random random(65);
+  MESSAGE("seed 65");
+  int thin = 0;
+  for (int i = 0; i < 2000; ++i) {
+    // Integers, so that the exact product is at hand; b and c all but in one direction.
+    const auto integer = [&](double size) { return std::floor(random.range(-size, size)); };
+    const Vec3 a{integer(1e9), integer(1e9), integer(1e9)},
+        u{integer(1e9), integer(1e9), integer(1e9)};
+    const double s = std::floor(random.range(2, 5));
+    const Vec3 b = a + u, c = a + s * u + Vec3{integer(3), integer(3), integer(3)};
+    const auto minor = [](double p, double q, double r, double t) {
+      return double(__int128(p) * __int128(t) - __int128(q) * __int128(r));
+    };
+    const Vec3 w = c - a;
+    const Vec3 exact{minor(u.y, u.z, w.y, w.z), minor(u.z, u.x, w.z, w.x),
+                     minor(u.x, u.y, w.x, w.y)};
+    // Scaled by a power of two into the range of the predicates.
+    const double k = 0x1p-40;
+    const Vec3 got = accurateCross(k * a, k * b, k * c);
+    thin += isThin(dot(exact, exact), dot(u, u), dot(w, w));
+    CHECK(distance((1 / (k * k)) * got, exact) <= 1e-11 * length(exact));
+  }
+  CHECK(thin > 1900);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/accurate_cross.h"
 #include "base/charge.h"
 #include "base/predicates.h"
 #include "loops/weight.h"
@@ -77,7 +78,7 @@ bool weighTriangles(const LoopSet& loops, const TriangleWeights& w, Work& work, 
     if (!work.tick(60)) return false;
     const uint32_t* v = &set.triangles[3 * t];
     const Vec3 p[3] = {loops.position(v[0]), loops.position(v[1]), loops.position(v[2])};
-    const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
+    const Vec3 normal = accurateCross(p[0], p[1], p[2]);
     double sum = w.own.empty() ? 0 : w.own[t];
     if (w.area > 0) sum += w.area * 0.5 * length(normal);
     if (w.perimeter > 0)
@@ -138,7 +139,11 @@ bool buildIncidence(const LoopSet& loops, Work& work, CandidateSet& set) {
     // The nearer end keeps the cancellation in the projection of a sliver small.
     const Vec3 toU = apex - loops.position(u), toV = apex - loops.position(v);
     const Vec3 arm = dot(toU, toU) <= dot(toV, toV) ? toU : toV;
-    set.slotTheta[slot] = std::atan2(dot(arm, frame.y), dot(arm, frame.x));
+    const double y = dot(arm, frame.y), x = dot(arm, frame.x);
+    set.slotTheta[slot] =
+        isThin(x * x + y * y, dot(arm, arm), 1)
+            ? angleOfNormal(frame, accurateCross(loops.position(u), loops.position(v), apex))
+            : std::atan2(y, x);
     set.slotTriangle[slot] = corner / 3;
     set.slotApex[slot] = set.triangles[corner];
     set.triangleEdges[corner] = uint32_t(set.edgeSlots.size()) - 1;
@@ -189,7 +194,7 @@ bool faceAngle(const LoopSet& loops, ArrayView<const double> normals, uint32_t a
   const double largest = std::max({std::fabs(face.x), std::fabs(face.y), std::fabs(face.z)});
   face = {face.x / largest, face.y / largest, face.z / largest};
   const Vec3 p = loops.position(a);
-  angle = angleBetween(cross(loops.position(b) - p, loops.position(apex) - p), face);
+  angle = angleBetween(accurateCross(p, loops.position(b), loops.position(apex)), face);
   return true;
 }
 

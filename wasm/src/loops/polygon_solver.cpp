@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/accurate_cross.h"
 #include "base/atan2.h"
 #include "base/charge.h"
 #include "base/predicates.h"
@@ -99,9 +100,20 @@ void Polygon::anglesAround(uint32_t i, uint32_t j, double* theta) const {
   const Frame frame = frameAcross(loops_.position(j) - loops_.position(i));
   const Vec3 p = loops_.position(i), a = frame.x, b = frame.y;
   const double *x = x_.data(), *y = y_.data(), *z = z_.data();
+  double thinnest = kInfinity;
   for (uint32_t k = 0; k < n_; ++k) {
     const double dx = x[k] - p.x, dy = y[k] - p.y, dz = z[k] - p.z;
-    theta[k] = fastAtan2(b.x * dx + b.y * dy + b.z * dz, a.x * dx + a.y * dy + a.z * dz);
+    const double up = b.x * dx + b.y * dy + b.z * dz, across = a.x * dx + a.y * dy + a.z * dz;
+    const double rest = across * across + up * up - 1e-8 * (dx * dx + dy * dy + dz * dz);
+    thinnest = rest < thinnest && k != i && k != j ? rest : thinnest;
+    theta[k] = fastAtan2(up, across);
+  }
+  if (thinnest >= 0) return;
+  for (uint32_t k = 0; k < n_; ++k) {
+    const Vec3 arm = loops_.position(k) - p;
+    const double up = dot(arm, b), across = dot(arm, a);
+    if (isThin(across * across + up * up, dot(arm, arm), 1))
+      theta[k] = angleOfNormal(frame, accurateCross(p, loops_.position(j), loops_.position(k)));
   }
 }
 

@@ -94,7 +94,7 @@ bool SegmentTable::compute(const LoopSet& loops, const CandidateSet& set,
     const ClosedSegment segment = segments[i];
     const uint32_t begin = set.edgeSlots[segment.edge], end = set.edgeSlots[segment.edge + 1];
     if (!work.tick(50 + 20 * (end - begin))) return false;
-    work.setFraction(double(i) / double(segments.size()));
+    if (loops.loopCount() == 1) work.setFraction(double(i) / double(segments.size()));
     if (segmentLength(segment) == 1) {
       for (uint32_t s = begin; s < end; ++s) values_[2 * size_t(s) + segment.side] = 0;
       continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/accurate_cross.h"
 #include "base/predicates.h"
 #include "delaunay/delaunay.h"
 #include "loops/candidate_set.h"
@@ -373,7 +374,7 @@ void Spanning::measure(const Problem& problem, const CandidateSet& set,
   for (const uint32_t t : triangles) {
     const uint32_t* v = &set.triangles[3 * size_t(t)];
     const Vec3 p[3] = {loops.position(v[0]), loops.position(v[1]), loops.position(v[2])};
-    terms.area += 0.5 * length(cross(p[1] - p[0], p[2] - p[0]));
+    terms.area += 0.5 * length(accurateCross(p[0], p[1], p[2]));
     terms.perimeter += distance(p[0], p[1]) + distance(p[1], p[2]) + distance(p[2], p[0]);
     if (!own.empty()) terms.own += own[t];
     slots.insert(slots.end(), &set.triangleSlots[3 * size_t(t)],

@@ -42,6 +42,12 @@ inline Frame frameAcross(Vec3 along) {
   return {x, cross(d, x)};
 }
 
+/// The angle of a triangle around its edge in a frame across it, from the normal
+/// (end of the edge - start) x (apex - start).
+inline double angleOfNormal(const Frame& frame, Vec3 normal) {
+  return std::atan2(-dot(normal, frame.x), dot(normal, frame.y));
+}
+
 /// What one pass of the solver minimises: a sum, or a maximum of angles.
 class Measure {
  public:
