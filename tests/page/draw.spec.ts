@@ -89,6 +89,15 @@ test('the view plane: a stroke lies in the plane of the screen, at its offset', 
   expect(Math.max(...heights) - Math.min(...heights)).toBeLessThan(1e-3);
 });
 
+test('the circle tool three times: three circles apart, spanned', async ({ quietPage: page }) => {
+  await openEmpty(page);
+  for (let count = 1; count <= 3; count++) {
+    await page.keyboard.press('a');
+    await hasCurves(page, count);
+    expectSpans((await spanned(page)).span, count);
+  }
+});
+
 test('escape while drawing: the stroke is dropped', async ({ quietPage: page }) => {
   await openEmpty(page);
   await page.keyboard.press('d');

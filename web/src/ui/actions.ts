@@ -1,9 +1,12 @@
 // What buttons and keys have in common: commands that depend on the selection and the pen.
 import type { Stage } from '../scene/stage.ts';
 import { circleInPlane, toPlane } from '../shapes/plane.ts';
-import { add, scale } from '../shapes/vec.ts';
+import { add, dot, scale, subtract } from '../shapes/vec.ts';
 import { dispatch, doc, drawing, requestFrame, selection } from '../state/store.ts';
 import { gridStep } from '../scene/grid.ts';
+
+/** A vertex nearer to a plane lies in it, in radii of what is in view. */
+const kClear = 1e-3;
 
 let stage: Stage | null = null;
 
@@ -12,14 +15,26 @@ export function actOn(theStage: Stage): void {
   stage = theStage;
 }
 
-/** Adds a circle in the drawing plane, below the point that the view turns about. */
+/**
+ * Adds a circle in the drawing plane, around the point of it that the view turns about; smaller
+ * where a curve has a vertex on that circle already.
+ */
 export function addCircle(): void {
   if (stage === null) return;
   const frame = stage.drawingPlane();
   const { radius } = stage.view;
-  const center = toPlane(frame, stage.view.controls.target.toArray());
-  const points = circleInPlane(frame, center, 3 * gridStep(radius), drawing.peek().count);
-  const isFirst = doc.peek().curves.length === 0;
+  const center = toPlane(frame, stage.view.target);
+  const { curves } = doc.peek();
+  // Distances of the vertices in the plane from the center.
+  const taken = curves.flat().flatMap((point) => {
+    const [u, v] = toPlane(frame, point);
+    const height = dot(subtract(point, frame.origin), frame.normal);
+    return Math.abs(height) < kClear * radius ? [Math.hypot(u - center[0], v - center[1])] : [];
+  });
+  let size = 3 * gridStep(radius);
+  while (taken.some((distance) => Math.abs(distance - size) < 0.1 * size)) size *= 0.75;
+  const points = circleInPlane(frame, center, size, drawing.peek().count);
+  const isFirst = curves.length === 0;
   dispatch({ type: 'add-curve', points });
   selection.value = { curve: doc.peek().curves.length - 1, vertex: null };
   if (isFirst) requestFrame();
