@@ -147,12 +147,13 @@ function Figures({ span, faded }: { span: Span; faded: boolean }) {
         <Row name="Perimeters" value={figure(terms.perimeter)} />
         <Row name="Bending" value={`${figure(terms.dihedral)} rad`} />
         <Row name="Worst angle" value={`${((terms.worstDihedral * 180) / Math.PI).toFixed(1)}°`} />
-        <Row name="Vertices" value={whole(span.positions.length / 3) + (inserted > 0 ? ` (${whole(inserted)} inserted)` : '')} />
+        <Row name="Vertices" value={whole(span.positions.length / 3)} />
         <Row name="Triangles" value={whole(span.triangles.length / 3)} />
         <Row name="Candidates" value={whole(stats.candidates)} />
         <Row name="Domains" value={whole(stats.domains)} />
         <Row name="Memory" value={bytes(stats.peakBytes)} />
         <Row name="Time" value={seconds(stats.seconds)} />
+        {inserted > 0 && <Row name="Inserted" value={whole(inserted)} />}
       </dl>
     </div>
   );
@@ -167,12 +168,15 @@ function Row(props: { name: string; value: string }) {
   );
 }
 
-/** Five significant digits, without trailing noise. */
+const kPlain = new Intl.NumberFormat('en', { maximumSignificantDigits: 4 });
+const kEngineering = new Intl.NumberFormat('en', { maximumSignificantDigits: 4, notation: 'engineering' });
+
+/** Four significant digits; the very small and large with an exponent that is a multiple of 3. */
 export function figure(value: number): string {
   if (!Number.isFinite(value)) return '–';
   const size = Math.abs(value);
-  if (size !== 0 && (size >= 1e6 || size < 1e-4)) return value.toExponential(3);
-  return Number(value.toPrecision(5)).toLocaleString('en', { maximumSignificantDigits: 5 });
+  const isPlain = size === 0 || (size >= 1e-3 && size < 1e5);
+  return isPlain ? kPlain.format(value) : kEngineering.format(value).replace('E', 'e');
 }
 
 const whole = (value: number): string => Math.round(value).toLocaleString('en');
