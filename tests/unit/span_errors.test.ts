@@ -179,6 +179,10 @@ describe('spanLoops, options at fault', () => {
     expectError(rings, { boundaryNormals: broken(1, 0, Infinity) }, 'bad-normals', place);
   });
 
+  test.each([[null], [5], ['sum']])('options %o: bad-option', (options) => {
+    expectError(rings, options, 'bad-option');
+  });
+
   test('own candidates: bad-candidates with the index of the triangle', () => {
     const given = (...triangles: number[]) => ({
       candidates: { triangles: Uint32Array.from(triangles) },
@@ -194,7 +198,7 @@ describe('spanLoops, options at fault', () => {
       candidates: { triangles: Uint32Array.of(0, 1, 2), weights: Float64Array.from(weights) },
     });
     expectError(rings, weighed(1, 2), 'bad-candidates');
-    expect(errorOf(() => spanLoops(rings, weighed(NaN))).code).toMatch(/^bad-(weights|candidates)$/);
+    expectError(rings, weighed(NaN), 'bad-candidates', { vertex: 0 });
     const line: Loop = [
       [0, 0, 0],
       [1, 0, 0],
