@@ -90,6 +90,7 @@ export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | N
   const stats: SpanStats = { candidates, domains, minimalSets, seconds, peakBytes };
   const used = kSpaces[space] as SpaceUsed;
   if (!found) return { found, reason: noSpanReason(used), candidates: used, stats };
+  onProgress?.(1, cost, lowerBound);
   return {
     found,
     positions,

@@ -34,7 +34,7 @@ export interface CandidateList {
 }
 
 /**
- * Called while a span is computed.
+ * Called while a span is computed, every 30 ms or so, and once when a surface has been found.
  * @param fraction share of the work done, 0 to 1, never falling
  * @param bestCost cost of the best surface so far, `Infinity` while there is none
  * @param lowerBound proven lower bound on the optimal cost, 0 at first
