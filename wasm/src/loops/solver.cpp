@@ -54,16 +54,17 @@ constexpr uint64_t kUnlimited = ~uint64_t(0);
 /// False when the work ended.
 bool solveDirectly(const Task& task, uint64_t maxSplits, Optimum& optimum, Surface& surface) {
   optimum = {};
-  const auto& [loops, set, triangleCost, measure, work, isObjective] = task;
-  (void)isObjective;
+  const LoopSet& loops = task.loops;
+  const CandidateSet& set = task.set;
+  Work& work = task.work;
   const uint32_t root = chooseRoot(loops, set);
   if (root == kNone) {
     optimum.reached = true;
     return work.going();
   }
   SegmentTable segments;
-  if (!segments.compute(loops, set, triangleCost, measure, work)) return false;
-  const Pass pass{loops, set, triangleCost, measure, segments, work};
+  if (!segments.compute(loops, set, task.triangleCost, task.measure, work)) return false;
+  const Pass pass{loops, set, task.triangleCost, task.measure, segments, work};
   if (loops.loopCount() == 1) {
     const uint32_t edge = set.loopEdges[root];
     const ClosedSegment all{edge, segments.sideFrom(edge, loops.next(root))};
@@ -122,7 +123,7 @@ bool solveByFans(const Task& task, Optimum& optimum, Surface& surface) {
   std::vector<uint32_t> byExcess;
   Optimum best;
   double share = 1.25;  // candidates to look for a surface in, as a multiple of its triangles
-  uint64_t maxSplits = kFirstSplits;
+  uint64_t maxSplits = 400000;  // of each subset, some hundredths of a second
   for (uint32_t round = 0; task.work.going(); ++round) {
     task.work.setFraction(1 - 1 / (1 + 0.3 * round));
     if (!fans.ascend(300, best.cost) || !fans.excess(excess)) return false;
@@ -167,13 +168,15 @@ bool solveByFans(const Task& task, Optimum& optimum, Surface& surface) {
 }
 
 /// The optimum of one pass, from fraction `from` to `to` of the work.
-bool runPass(const Task& task, double from, double to, uint64_t firstSplits, Optimum& optimum,
+bool runPass(const Task& task, double from, double to, uint64_t splitsPerVertex, Optimum& optimum,
              Surface& surface) {
   // Hubs make fans expensive: their labels may take what some times the candidates do.
   const double fanBytes = FanBound::bytesFor(task.loops, task.set);
   const bool direct = task.loops.loopCount() == 1 || task.measure.isWorst() ||
                       isLarge(task.loops, task.set) || !task.work.fits(fanBytes) ||
                       fanBytes > 40 * CandidateSet::bytesFor(double(task.set.size()));
+  const uint64_t n = task.loops.vertexCount();
+  const uint64_t firstSplits = splitsPerVertex < kUnlimited / n ? splitsPerVertex * n : kUnlimited;
   task.work.phase(from, direct ? to : from + 0.2 * (to - from));
   if (!solveDirectly(task, direct ? kUnlimited : firstSplits, optimum, surface)) return false;
   if (optimum.reached) return true;
@@ -184,18 +187,18 @@ bool runPass(const Task& task, double from, double to, uint64_t firstSplits, Opt
 }  // namespace
 
 bool solveSurface(const LoopSet& loops, const CandidateSet& set, double dihedralWeight,
-                  Objective objective, Work& work, Surface& surface, uint64_t firstSplits) {
+                  Objective objective, Work& work, Surface& surface, uint64_t splitsPerVertex) {
   surface = {};
   Optimum optimum;
   if (objective == Objective::Sum) {
     const Task task{loops, set, set.weight, Measure::sum(dihedralWeight), work, true};
-    if (!runPass(task, 0, 1, firstSplits, optimum, surface)) return false;
+    if (!runPass(task, 0, 1, splitsPerVertex, optimum, surface)) return false;
     surface.lowerBound = optimum.cost;
   } else {
     const std::vector<double> angle =
         set.boundaryAngle.empty() ? std::vector<double>(set.size(), 0) : set.boundaryAngle;
-    if (!runPass({loops, set, angle, Measure::worst(), work, true}, 0, 0.5, firstSplits, optimum,
-                 surface))
+    if (!runPass({loops, set, angle, Measure::worst(), work, true}, 0, 0.5, splitsPerVertex,
+                 optimum, surface))
       return false;
     if (optimum.cost == kInfinity) return true;
     surface.lowerBound = optimum.cost;
@@ -204,7 +207,7 @@ bool solveSurface(const LoopSet& loops, const CandidateSet& set, double dihedral
     for (size_t t = 0; t < weight.size(); ++t)
       if (angle[t] > cap) weight[t] = kInfinity;
     const Task task{loops, set, weight, Measure::sum(dihedralWeight, cap), work, false};
-    if (!runPass(task, 0.5, 1, firstSplits, optimum, surface)) return false;
+    if (!runPass(task, 0.5, 1, splitsPerVertex, optimum, surface)) return false;
     SF_ASSERT(optimum.cost < kInfinity);
   }
   surface.found = optimum.cost < kInfinity;

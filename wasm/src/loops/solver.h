@@ -17,16 +17,16 @@ struct Surface {
   uint64_t domains = 0, minimalSets = 0;
 };
 
-/// Some hundredths of a second.
-constexpr uint64_t kFirstSplits = 400000;
+/// Of a first try by domains alone. Fans cost in proportion to the vertices as well.
+constexpr uint64_t kSplitsPerVertex = 10000;
 
 /// The surface of least weighted sum, or of least largest angle and then of least sum, where angles
 /// within kAngleTie of the least possible one count as tied with it. False when the work ended.
-///   firstSplits  splits of domains after which several loops are bounded by their fans first; what
-///                it is changes the time, not the result
+///   splitsPerVertex  splits of domains after which several loops are bounded by their fans first;
+///                    what it is changes the time, not the result
 bool solveSurface(const LoopSet& loops, const CandidateSet& set, double dihedralWeight,
                   Objective objective, Work& work, Surface& surface,
-                  uint64_t firstSplits = kFirstSplits);
+                  uint64_t splitsPerVertex = kSplitsPerVertex);
 
 /// About how many nanoseconds solving over all triples takes in native code; infinity beyond
 /// double's range.
