@@ -13,6 +13,11 @@ export type ErrorCode =
   | 'bad-weights'
   | 'bad-candidates'
   | 'bad-option'
+  | 'self-intersecting'
+  | 'hole-outside'
+  | 'holes-overlap'
+  | 'nested-hole'
+  | 'degenerate'
   | 'bad-file'
   | 'too-large'
   | 'out-of-memory'
@@ -27,7 +32,7 @@ export interface ErrorPlace {
   readonly loop?: number;
   /** Index of the vertex within that loop, or of the candidate triangle for `bad-candidates`. */
   readonly vertex?: number;
-  /** The second loop and vertex, for errors about a pair (`repeated-vertex`, `loops-intersect`). */
+  /** The second loop and vertex, for errors about a pair, as `loops-intersect`. */
   readonly otherLoop?: number;
   readonly otherVertex?: number;
   /** Index of a face of a mesh. */

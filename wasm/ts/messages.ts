@@ -57,6 +57,35 @@ const table: Readonly<Record<number, readonly [ErrorCode, (place: ErrorPlace) =>
   11: ['too-large', () => 'the work is predicted to exceed the memory limit (`maxMemoryBytes`)'],
   12: ['out-of-memory', () => 'the work reached the memory limit (`maxMemoryBytes`)'],
   14: ['bad-option', () => 'an option is outside its range'],
+  15: [
+    'self-intersecting',
+    (place) => `the edge from ${first(place)} crosses or overlaps the edge from ${second(place)}`,
+  ],
+  16: [
+    'hole-outside',
+    (place) =>
+      place.otherLoop === undefined
+        ? `the hole ${at(place.loop, undefined)} is not inside the outer ring`
+        : `the edge from ${first(place)}, of a hole, crosses or overlaps the edge from ` +
+          `${second(place)} of the outer ring`,
+  ],
+  17: [
+    'holes-overlap',
+    (place) =>
+      `the edge from ${first(place)} crosses or overlaps the edge from ${second(place)}: ` +
+      'holes may touch, but not overlap',
+  ],
+  18: [
+    'nested-hole',
+    (place) => `the hole ${at(place.loop, undefined)} lies inside the hole ${at(place.otherLoop, undefined)}`,
+  ],
+  19: [
+    'degenerate',
+    (place) =>
+      place.vertex === undefined
+        ? `${at(place.loop, undefined)} has fewer than the 3 distinct points that a ring needs`
+        : `the edges at ${first(place)} leave it in one direction, as a spike`,
+  ],
 };
 
 /**

@@ -21,6 +21,12 @@ enum class Status : int32_t {
   OutOfMemory = 12,    // the memory limit was reached at work
   Stopped = 13,        // the progress callback asked to stop (cancel or time limit)
   BadOption = 14,      // an option out of its range
+  // Polygons in the plane:
+  SelfIntersecting = 15,   // two edges of one ring cross or overlap
+  HoleOutside = 16,        // a hole is not inside the outer ring, or crosses it
+  HolesOverlap = 17,       // two holes cross or have an edge in common
+  NestedHole = 18,         // a hole lies inside another
+  DegeneratePolygon = 19,  // a ring of fewer than 3 distinct points, or with a spike
 };
 
 constexpr uint32_t kNone = 0xFFFFFFFFu;

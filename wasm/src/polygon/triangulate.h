@@ -1,0 +1,90 @@
+// Triangulation of polygons with holes. The one entry to src/polygon for polygons from outside.
+// Source: Ronfard, Rossignac 1994 (flooding); Kumar 1998, sec. 4 (trapezoids).
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/status.h"
+#include "base/work.h"
+#include "polygon/polygon.h"
+
+namespace sf {
+
+enum class PolygonMethod : int32_t { Flooding = 0, Trapezoids = 1 };
+enum class Repair : int32_t { None = 0, EvenOdd = 1, NonZero = 2 };
+
+struct PolygonOptions {
+  PolygonMethod method = PolygonMethod::Flooding;
+  Repair repair = Repair::None;  // what to make of polygons that are not valid: an error, or the
+                                 // points of odd, or of non-zero, winding number
+  bool delaunay = false;         // constrained Delaunay triangles: edges are flipped until they are
+  bool strips = false;           // also as triangle strips
+  bool verify = false;           // certify the result (polygon/certificate.h)
+  bool trace = false;            // record the actions of flooding
+};
+
+/// One action of flooding, for teaching; see polygon/flood.h.
+struct FloodStep {
+  uint32_t action;       // FloodAction
+  uint32_t left, right;  // the vertices at the ends of the active chain after it
+  uint32_t triangles;    // how many triangles there are after it
+};
+
+struct PolygonTriangulation {
+  // [3m] counter-clockwise, vertices as in the input. m = n + 2 holes - 2 if rings do not touch; a
+  // touch at vertices leaves out two triangles. Triangles of area 0 occur only where consecutive
+  // vertices are equal or a vertex lies on an edge of another place in the rings.
+  std::vector<uint32_t> triangles;
+  std::vector<uint32_t> strips, stripStarts;  // if asked for: OpenGL order, strip i is
+                                              // strips[stripStarts[i] .. stripStarts[i+1]]
+  std::vector<double> added;                  // [2a] points that repair added, numbered from n on
+  std::vector<uint32_t> addedOn;              // [2a] the two edges that each is on
+  std::vector<FloodStep> trace;               // if asked for
+};
+
+/// Many polygons in flat arrays.
+struct PolygonBatch {
+  ArrayView<const double> positions;        // [2n]
+  ArrayView<const uint32_t> ringStarts;     // [r+1] into vertices
+  ArrayView<const uint32_t> polygonStarts;  // [p+1] into rings
+};
+
+struct PolygonFault {
+  uint32_t polygon;
+  Outcome outcome;  // `loop` counted in that polygon
+};
+
+struct PolygonBatchResult {
+  std::vector<uint32_t> triangles;       // [3m] indices into the batch's positions
+  std::vector<uint32_t> triangleStarts;  // [p+1] in triangles; an invalid polygon has none
+  std::vector<PolygonFault> faults;      // the invalid polygons, in order
+};
+
+/// Triangulates polygons one after the other, with memory that is kept for the next one.
+class PolygonTriangulator {
+ public:
+  PolygonTriangulator();
+  ~PolygonTriangulator();
+
+  /// Every triangle lies inside the polygon, and they cover it exactly, without T-junctions.
+  /// Errors: those of PlaneSweep::run, unless `repair` is set: then NotFinite, BadStarts,
+  /// OutOfMemory, TooLarge and Stopped alone. O(n log n) time, O(n) memory, charged to `work`.
+  Outcome triangulate(const PolygonView& polygon, const PolygonOptions& options, Work& work,
+                      PolygonTriangulation& result);
+
+  /// The same for many polygons; options `strips`, `trace` and `repair` do not apply. The outcome
+  /// is about the batch as a whole: BadStarts, OutOfMemory, Stopped.
+  Outcome triangulateBatch(const PolygonBatch& batch, const PolygonOptions& options, Work& work,
+                           PolygonBatchResult& result);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// PolygonTriangulator::triangulate for a single polygon.
+Outcome triangulatePolygon(const PolygonView& polygon, const PolygonOptions& options, Work& work,
+                           PolygonTriangulation& result);
+
+}  // namespace sf
