@@ -45,8 +45,8 @@ namespace {
 /// One call's arrays, each in a block of exactly its size, so that a sanitizer sees any overrun.
 struct Call {
   std::vector<double> positions, normals, triangleWeights;
-  std::vector<uint32_t> starts{0}, triangles;
-  double settings[6] = {0, 0, 1, 0, 1, 1e9};
+  std::vector<uint32_t> starts{0}, triangles, start;
+  double settings[7] = {0, 0, 1, 0, 1, 1e9, 0};
 
   uint32_t where[4] = {};
   SfResult* result = nullptr;
@@ -64,11 +64,12 @@ struct Call {
       return copy;
     };
     auto p = exact(positions), n = exact(normals), w = exact(triangleWeights);
-    auto s = exact(starts), t = exact(triangles);
-    return sf_span_loops(p.get(), s.get(), uint32_t(starts.size() - 1),
-                         normals.empty() ? nullptr : n.get(), triangles.empty() ? nullptr : t.get(),
-                         uint32_t(triangles.size() / 3),
-                         triangleWeights.empty() ? nullptr : w.get(), settings, where, &result);
+    auto s = exact(starts), t = exact(triangles), b = exact(start);
+    return sf_span_loops(
+        p.get(), s.get(), uint32_t(starts.size() - 1), normals.empty() ? nullptr : n.get(),
+        triangles.empty() ? nullptr : t.get(), uint32_t(triangles.size() / 3),
+        triangleWeights.empty() ? nullptr : w.get(), start.empty() ? nullptr : b.get(),
+        uint32_t(start.size() / 3), settings, where, &result);
   }
 };
 
@@ -138,7 +139,10 @@ Call wildCall(Random& random) {
   call.settings[3] = random.chance(0.3);
   call.settings[4] = random.below(5);
   call.settings[5] = random.chance(0.2) ? std::exp2(random.range(0, 22)) : 1e9;
-  for (int i = 3; i < 6; ++i)
+  call.settings[6] = random.chance(0.3);
+  if (random.chance(0.2))
+    for (uint32_t i = 0; i < 3 * n; ++i) call.start.push_back(random.below(n + 2));
+  for (int i = 3; i < 7; ++i)
     if (random.chance(0.02)) call.settings[i] = wildNumber(random);
 
   if (n > 0 && random.chance(0.2))

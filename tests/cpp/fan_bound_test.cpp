@@ -32,7 +32,10 @@ Surface solved(const LoopSet& loops, const CandidateSet& set, double dihedral,
                uint64_t firstSplits) {
   Work work;
   Surface surface;
-  REQUIRE(solveSurface(loops, set, dihedral, Objective::Sum, work, surface, firstSplits));
+  SolveOptions options;
+  options.dihedralWeight = dihedral;
+  options.splitsPerVertex = firstSplits;
+  REQUIRE(solveSurface(loops, set, options, work, surface));
   CHECK(work.used() == 0);
   return surface;
 }

@@ -28,7 +28,10 @@ void checkAgainstCandidateList(const Case& c, size_t maxBytes, double tolerance)
   CandidateSet all;
   REQUIRE(buildCandidateSet(c.loops, c.weights, triples, work, all));
   Surface expected;
-  REQUIRE(solveSurface(c.loops, all, c.weights.dihedral, c.objective, work, expected));
+  SolveOptions options;
+  options.dihedralWeight = c.weights.dihedral;
+  options.objective = c.objective;
+  REQUIRE(solveSurface(c.loops, all, options, work, expected));
 
   Work limited(maxBytes, nullptr, nullptr);
   PolygonSurface surface;

@@ -59,7 +59,7 @@ const kText = `(module
   (func $recurse (param i32) (result i32)
     (i32.add (i32.const 1) (call $recurse (i32.add (local.get 0) (i32.const 1)))))
   (func (export "sf_span_loops")
-    (param i32 i32 i32 i32 i32 i32 i32) (param $settings i32)
+    (param i32 i32 i32 i32 i32 i32 i32 i32 i32) (param $settings i32)
     (param $where i32) (param $result i32) (result i32)
     (local $fault i32) (local $fraction f64)
     (local.set $fault (i32.trunc_f64_s (f64.load (local.get $settings))))

@@ -25,6 +25,10 @@ typedef struct SfResult SfResult;
 /// Called about every millisecond; returns nonzero to go on, 0 to stop the call under way.
 int32_t sf_host_progress(double fraction, double bestCost, double lowerBound);
 
+/// Imported as `env.sf_host_result`: arrays of a result that the call under way has so far, which are
+/// the host's until it returns.
+void sf_host_result(const SfResult* result);
+
 /// Memory inside the instance, for arrays passed in. Null when it cannot be had.
 SF_API(sf_alloc) void* sf_alloc(size_t bytes);
 SF_API(sf_free) void sf_free(void* pointer);
@@ -41,9 +45,12 @@ SF_API(sf_result_free) void sf_result_free(SfResult* result);
 ///   boundaryNormals  [3 * n] or null: unit or not, NaN triple for no face
 ///   triangles        [3 * triangleCount] candidates for space 4, else null
 ///   triangleWeights  [triangleCount] or null
-///   settings         [6] weights of area (NaN: 1e-3 / squared bounding-box diagonal), perimeter,
+///   start            [3 * startCount] triangles of an earlier answer to begin from, or null
+///   settings         [7] weights of area (NaN: 1e-3 / squared bounding-box diagonal), perimeter,
 ///                    dihedral; objective (0 sum, 1 worst-dihedral);
-///                    space (0 auto, 1 all, 2 Delaunay, 3 near, 4 given); memory limit in bytes
+///                    space (0 auto, 1 all, 2 Delaunay, 3 near, 4 given); memory limit in bytes;
+///                    1 for the best surface so far, each of which sf_host_result is told of, where
+///                    the work ends early; else 0
 ///   where            [4] out: loop, vertex, other loop, other vertex at fault, or 0xFFFFFFFF
 ///   result           out: arrays
 ///       0 double   [3n'] positions        5 double   [14] found, space, cost, lower bound, optimal,
@@ -56,7 +63,7 @@ SF_API(sf_span_loops)
 SfStatus sf_span_loops(const double* positions, const uint32_t* starts, uint32_t loopCount,
                        const double* boundaryNormals, const uint32_t* triangles,
                        uint32_t triangleCount, const double* triangleWeights,
-                       const double* settings, uint32_t* where, SfResult** result);
+                       const uint32_t* start, uint32_t startCount, const double* settings, uint32_t* where, SfResult** result);
 
 #ifdef __cplusplus
 }

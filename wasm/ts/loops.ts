@@ -1,7 +1,7 @@
 // spanLoops: options checked and turned into the core's settings, the core's arrays into a Span.
 import { SoapfilmError } from './errors.js';
 import { toLoopSet } from './loopset.js';
-import { callCore } from './runtime.js';
+import { callCore, type Arrays } from './runtime.js';
 import type {
   CandidateList,
   LoopSet,
@@ -9,7 +9,6 @@ import type {
   NoSpan,
   Span,
   SpanOptions,
-  SpanStats,
   SpaceUsed,
   Weights,
 } from './types.js';
@@ -41,9 +40,10 @@ export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | N
   if (typeof (options as unknown) !== 'object' || (options as unknown) === null) {
     throw new SoapfilmError('bad-option', 'The options must be an object');
   }
-  const { onProgress, maxSeconds } = options;
+  const { onProgress, onBest, maxSeconds, bestSoFar = false } = options;
   checkLimits(options);
   const list = typeof options.candidates === 'object' ? checkList(options.candidates) : undefined;
+  const start = checkStart(options.startFrom);
   const started = performance.now();
   const { found, arrays } = callCore(
     'sf_span_loops',
@@ -55,22 +55,45 @@ export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | N
       list?.triangles ?? null,
       list ? list.triangles.length / 3 : 0,
       list?.weights ?? null,
+      start,
+      start ? start.length / 3 : 0,
       settings(options),
     ],
-    [
-      Float64Array,
-      Uint32Array,
-      Uint32Array,
-      Uint32Array,
-      Uint32Array,
-      Float64Array,
-      Uint32Array,
-      Float64Array,
-    ],
-    { onProgress, maxSeconds },
+    kResultTypes,
+    {
+      onProgress,
+      maxSeconds,
+      keepsResult: bestSoFar,
+      onResult:
+        onBest &&
+        ((partial) => {
+          onBest(readSpan(partial, started));
+        }),
+    },
   );
+  if (!found) {
+    const { candidates, stats } = readSpan(arrays, started);
+    return { found, reason: noSpanReason(candidates), candidates, stats };
+  }
+  const span = readSpan(arrays, started);
+  onProgress?.(1, span.cost, span.lowerBound);
+  return span;
+}
+
+/** The arrays of a result of `sf_span_loops`. */
+const kResultTypes = [
+  Float64Array,
+  Uint32Array,
+  Uint32Array,
+  Uint32Array,
+  Uint32Array,
+  Float64Array,
+  Uint32Array,
+  Float64Array,
+] as const;
+
+function readSpan(arrays: Arrays<typeof kResultTypes>, started: number): Span {
   const [positions, triangles, order, starts, loopVertices, numbers, places, parameters] = arrays;
-  const seconds = (performance.now() - started) / 1000;
   const [
     ,
     space,
@@ -87,12 +110,9 @@ export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | N
     minimalSets,
     peakBytes,
   ] = numbers;
-  const stats: SpanStats = { candidates, domains, minimalSets, seconds, peakBytes };
-  const used = kSpaces[space] as SpaceUsed;
-  if (!found) return { found, reason: noSpanReason(used), candidates: used, stats };
-  onProgress?.(1, cost, lowerBound);
+  const seconds = (performance.now() - started) / 1000;
   return {
-    found,
+    found: true,
     positions,
     triangles,
     starts,
@@ -106,9 +126,9 @@ export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | N
     terms: { area, perimeter, dihedral, worstDihedral },
     lowerBound,
     optimal: optimal !== 0,
-    candidates: used,
+    candidates: kSpaces[space] as SpaceUsed,
     order,
-    stats,
+    stats: { candidates, domains, minimalSets, seconds, peakBytes },
   };
 }
 
@@ -122,7 +142,13 @@ function noSpanReason(space: SpaceUsed): string {
   return wider[space];
 }
 
-function settings({ weights, objective = 'sum', candidates, maxMemoryBytes }: SpanOptions) {
+function settings({
+  weights,
+  objective = 'sum',
+  candidates,
+  maxMemoryBytes,
+  bestSoFar = false,
+}: SpanOptions) {
   const space = typeof candidates === 'object' ? 'given' : (candidates ?? 'auto');
   const spaceIndex = kSpaces.indexOf(space);
   const objectiveIndex = kObjectives.indexOf(objective);
@@ -140,6 +166,7 @@ function settings({ weights, objective = 'sum', candidates, maxMemoryBytes }: Sp
     objectiveIndex,
     spaceIndex,
     maxMemoryBytes ?? kDefaultMemoryBytes,
+    Number(bestSoFar),
   ]);
 }
 
@@ -159,14 +186,31 @@ function checkWeights(weights: Required<Weights>): void {
   }
 }
 
-function checkLimits({ maxMemoryBytes, maxSeconds, onProgress }: SpanOptions): void {
+function checkLimits(options: SpanOptions): void {
+  const { maxMemoryBytes, maxSeconds, bestSoFar } = options;
   for (const [name, value] of Object.entries({ maxMemoryBytes, maxSeconds })) {
     if (value === undefined || (typeof value === 'number' && value >= 0)) continue;
     throw new SoapfilmError('bad-option', `\`${name}\` must be a number and not negative`);
   }
-  if (onProgress !== undefined && typeof onProgress !== 'function') {
-    throw new SoapfilmError('bad-option', '`onProgress` must be a function');
+  if (bestSoFar !== undefined && typeof bestSoFar !== 'boolean') {
+    throw new SoapfilmError('bad-option', '`bestSoFar` must be true or false');
   }
+  for (const name of ['onProgress', 'onBest'] as const) {
+    if (options[name] !== undefined && typeof options[name] !== 'function') {
+      throw new SoapfilmError('bad-option', `\`${name}\` must be a function`);
+    }
+  }
+}
+
+function checkStart(start: Uint32Array | undefined): Uint32Array | null {
+  if (start === undefined) return null;
+  if (!(start instanceof Uint32Array) || start.length % 3 !== 0) {
+    throw new SoapfilmError(
+      'bad-option',
+      '`startFrom` must be a Uint32Array of three indices for each triangle',
+    );
+  }
+  return start;
 }
 
 function checkList(list: CandidateList | null): CandidateList {

@@ -4,9 +4,21 @@ import { buffersOf, copyOf, unpackError, type Calls, type Reply, type Request } 
 import { startThread, type Thread } from './thread.js';
 import type { ProgressListener } from './types.js';
 
+/** Who hears of a call on its way, and what may end it early. */
+export interface CallWatch {
+  readonly signal?: AbortSignal | undefined;
+  readonly onProgress?: ProgressListener | undefined;
+  /** Called with each result on the way. */
+  readonly onBest?: ((value: unknown) => void) | undefined;
+  /** Whether the signal ends the call with the last result on the way, if there is one. */
+  readonly keepsBest?: boolean | undefined;
+}
+
 interface Job {
   readonly request: Request & { readonly kind: 'call' };
-  readonly onProgress: ProgressListener | undefined;
+  readonly watch: CallWatch;
+  /** The last result on the way. */
+  best?: unknown;
   readonly resolve: (value: unknown) => void;
   readonly reject: (reason: unknown) => void;
 }
@@ -35,26 +47,34 @@ export class Pool {
   /**
    * Runs one function in a thread.
    * @throws SoapfilmError of the function, `cancelled`, `disposed`, `crashed`, or `load-failed` when
-   *   no thread can be started; what `onProgress` throws, which also ends the work
+   *   no thread can be started; what the listeners throw, which also ends the work
    */
   call<N extends keyof Calls>(
     name: N,
     input: Parameters<Calls[N]>,
-    signal: AbortSignal | undefined,
-    onProgress: ProgressListener | undefined,
+    watch: CallWatch,
   ): Promise<unknown> {
+    const { signal, onProgress, keepsBest = false } = watch;
     return new Promise((resolve, reject) => {
       if (this.#disposed) throw disposed();
       if (signal?.aborted) throw cancelled(signal);
       const abort = (): void => {
-        if (signal) this.#drop(job, cancelled(signal));
+        if (!signal) return;
+        if (job.best !== undefined) job.resolve(job.best);
+        this.#drop(job, cancelled(signal));
       };
       const ended = (): void => {
         signal?.removeEventListener('abort', abort);
       };
       const job: Job = {
-        request: { kind: 'call', name, input: copyOf(input), progress: onProgress !== undefined },
-        onProgress,
+        request: {
+          kind: 'call',
+          name,
+          input: copyOf(input),
+          progress: onProgress !== undefined,
+          results: keepsBest,
+        },
+        watch,
         resolve: (value) => {
           ended();
           resolve(value);
@@ -210,7 +230,15 @@ export class Pool {
     switch (reply.kind) {
       case 'progress':
         try {
-          job.onProgress?.(...reply.values);
+          job.watch.onProgress?.(...reply.values);
+        } catch (error) {
+          this.#drop(job, error);
+        }
+        break;
+      case 'best':
+        job.best = reply.value;
+        try {
+          job.watch.onBest?.(copyOf(reply.value));
         } catch (error) {
           this.#drop(job, error);
         }

@@ -16,12 +16,15 @@ export type Request =
       readonly input: Parameters<Calls[keyof Calls]>;
       /** Whether anyone listens to the progress. */
       readonly progress: boolean;
+      /** Whether results on the way are wanted: whoever ends the call takes the last one. */
+      readonly results: boolean;
     };
 
-/** From a thread: `ready` once; for each call any number of `progress`, then `done` or `error`. */
+/** From a thread: `ready` once; for each call any number of `progress` and `best`, then the end. */
 export type Reply =
   | { readonly kind: 'ready' }
   | { readonly kind: 'progress'; readonly values: readonly [number, number, number] }
+  | { readonly kind: 'best'; readonly value: unknown }
   | { readonly kind: 'done'; readonly value: unknown }
   | { readonly kind: 'error'; readonly error: PlainError };
 

@@ -13,14 +13,18 @@ type ArrayType =
   | Uint8ArrayConstructor;
 
 /** The arrays that a call hands back, for the types asked for. */
-type Arrays<T extends readonly ArrayType[]> = { [I in keyof T]: InstanceType<T[I]> };
+export type Arrays<T extends readonly ArrayType[]> = { [I in keyof T]: InstanceType<T[I]> };
 
 /** What may end a call early, and who is told how it goes. */
-export interface Watch {
+export interface Watch<T extends readonly ArrayType[]> {
   /** Called every 30 ms or so. What it throws ends the work and is thrown on by `callCore`. */
   readonly onProgress?: ProgressListener | undefined;
   /** Wall-clock seconds after which the call ends with `time-limit`. */
   readonly maxSeconds?: number | undefined;
+  /** Called with each result that the work has on its way; what it throws is thrown on likewise. */
+  readonly onResult?: ((arrays: Arrays<T>) => void) | undefined;
+  /** Whether the time limit asks the core to end, and then takes what that hands back. */
+  readonly keepsResult?: boolean | undefined;
 }
 
 const kProgressMs = 30;
@@ -39,11 +43,14 @@ interface Core {
 
 /** The call under way. */
 interface Run {
-  readonly watch: Watch;
+  readonly watch: Pick<Watch<[]>, 'onProgress' | 'maxSeconds' | 'keepsResult'>;
+  /** Hands a result on, by its handle. */
+  readonly hear: (handle: number) => void;
   readonly started: number;
   told: number;
   fraction: number;
-  stop?: { readonly reason: unknown };
+  /** Why the work is to end; `gently`: what it has until then is still wanted. */
+  stop?: { readonly reason: unknown; readonly gently: boolean };
 }
 
 let module: WebAssembly.Module | undefined;
@@ -69,6 +76,7 @@ export async function startCore(compiled: WebAssembly.Module): Promise<void> {
 function imports(compiled: WebAssembly.Module): WebAssembly.Imports {
   const known: Record<string, (...args: number[]) => unknown> = {
     sf_host_progress: onHostProgress,
+    sf_host_result: onHostResult,
     proc_exit: (code) => {
       throw new Error(`the core exited with ${code}`);
     },
@@ -100,13 +108,15 @@ function onHostProgress(fraction: number, bestCost: number, lowerBound: number):
   if (!run || run.stop) return 0;
   const { watch, started } = run;
   const now = performance.now();
+  if (watch.maxSeconds !== undefined && now - started >= watch.maxSeconds * 1000) {
+    const text = `The work was not done within ${watch.maxSeconds} s (\`maxSeconds\`)`;
+    run.stop = {
+      reason: new SoapfilmError('time-limit', text),
+      gently: watch.keepsResult === true,
+    };
+    return 0;
+  }
   try {
-    if (watch.maxSeconds !== undefined && now - started >= watch.maxSeconds * 1000) {
-      throw new SoapfilmError(
-        'time-limit',
-        `The work was not done within ${watch.maxSeconds} s (\`maxSeconds\`)`,
-      );
-    }
     run.fraction = Math.min(1, Math.max(run.fraction, fraction));
     if (watch.onProgress && now - run.told >= kProgressMs) {
       watch.onProgress(run.fraction, bestCost, lowerBound);
@@ -115,8 +125,18 @@ function onHostProgress(fraction: number, bestCost: number, lowerBound: number):
     }
     return 1;
   } catch (reason) {
-    run.stop = { reason };
+    run.stop = { reason, gently: false };
     return 0;
+  }
+}
+
+/** The import that hands over a result on the way; never throws into the core either. */
+function onHostResult(handle: number): void {
+  if (!run || run.stop) return;
+  try {
+    run.hear(handle);
+  } catch (reason) {
+    run.stop = { reason, gently: false };
   }
 }
 
@@ -132,7 +152,7 @@ export function callCore<const T extends readonly ArrayType[]>(
   name: string,
   args: readonly CoreArgument[],
   types: T,
-  watch: Watch = {},
+  watch: Watch<T> = {},
 ): { readonly found: boolean; readonly arrays: Arrays<T> } {
   if (run) {
     throw new SoapfilmError('bad-option', 'soapfilm cannot be called from within `onProgress`');
@@ -141,7 +161,10 @@ export function callCore<const T extends readonly ArrayType[]>(
     throw new SoapfilmError('not-loaded', 'Call `await load()` once before any other function');
   }
   const now = performance.now();
-  const thisRun: Run = { watch, started: now, told: now, fraction: 0 };
+  const hear = (handle: number): void => {
+    if (core) watch.onResult?.(readArrays(core, handle, types));
+  };
+  const thisRun: Run = { watch, hear, started: now, told: now, fraction: 0 };
   run = thisRun;
   try {
     core ??= open(new WebAssembly.Instance(module, imports(module)));
@@ -159,12 +182,13 @@ export function callCore<const T extends readonly ArrayType[]>(
 
 /** `callCore` in one instance: arguments in, call, results out, everything freed. */
 function callIn<const T extends readonly ArrayType[]>(
-  { memory, find }: Core,
+  called: Core,
   name: string,
   args: readonly CoreArgument[],
   types: T,
   thisRun: Run,
 ): { found: boolean; arrays: Arrays<T> } {
+  const { memory, find } = called;
   const entry = find(name);
   // One block: `where` [4], `result` and 4 bytes of padding, then the arrays.
   let size = 24;
@@ -192,11 +216,7 @@ function callIn<const T extends readonly ArrayType[]>(
   let arrays: Arrays<T> | undefined;
   try {
     if (status === kOk || status === kNotFound) {
-      arrays = types.map((type, i) => {
-        const address = find('sf_result_data')(handle, i) >>> 0;
-        const length = find('sf_result_length')(handle, i) >>> 0;
-        return length === 0 ? new type(0) : new type(memory.buffer, address, length).slice();
-      }) as unknown as Arrays<T>;
+      arrays = readArrays(called, handle, types);
     }
   } catch (error) {
     if (error instanceof WebAssembly.RuntimeError || error instanceof SoapfilmError) throw error;
@@ -208,13 +228,26 @@ function callIn<const T extends readonly ArrayType[]>(
   }
   const culprits = new Uint32Array(memory.buffer, where, 4).slice();
   find('sf_free')(block);
-  if (thisRun.stop) throw thisRun.stop.reason;
+  if (thisRun.stop && !(thisRun.stop.gently && arrays)) throw thisRun.stop.reason;
   if (!arrays) {
     throw status === kStopped
       ? new SoapfilmError('cancelled', 'The work was stopped')
       : statusError(status, culprits);
   }
   return { found: status === kOk, arrays };
+}
+
+/** Copies of the arrays of a result. */
+function readArrays<const T extends readonly ArrayType[]>(
+  { memory, find }: Core,
+  handle: number,
+  types: T,
+): Arrays<T> {
+  return types.map((type, i) => {
+    const address = find('sf_result_data')(handle, i) >>> 0;
+    const length = find('sf_result_length')(handle, i) >>> 0;
+    return length === 0 ? new type(0) : new type(memory.buffer, address, length).slice();
+  }) as unknown as Arrays<T>;
 }
 
 const padded = (bytes: number): number => Math.ceil(bytes / 8) * 8;

@@ -30,6 +30,11 @@ export function serve(port: Port): void {
           reply({ kind: 'progress', values });
         },
       }),
+      ...(request.results && {
+        onBest: (value) => {
+          reply({ kind: 'best', value }, buffersOf(value));
+        },
+      }),
     });
     reply({ kind: 'done', value }, buffersOf(value));
   };

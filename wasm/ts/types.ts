@@ -64,6 +64,20 @@ export interface SpanOptions {
   readonly maxMemoryBytes?: number;
   /** Seconds after which the call ends with `time-limit`. Default: none. */
   readonly maxSeconds?: number;
+  /**
+   * Whether a limit, or the `signal` of a worker's call, ends the work with the best surface found
+   * until then: `optimal: false`, and `cost` and `lowerBound` tell how far from the optimum it can be
+   * at most. Surfaces are then looked for first, which takes some hundredths of a second; the error of
+   * the limit comes only if there is none yet. Default `false`.
+   */
+  readonly bestSoFar?: boolean;
+  /** With `bestSoFar`: called with every surface that is better than the one before. */
+  readonly onBest?: (span: Span) => void;
+  /**
+   * `[3m]` triangles of an earlier answer to the same loops, edited or not: the search for surfaces
+   * begins there. What does not fit any more does no harm, and the optimum does not depend on it.
+   */
+  readonly startFrom?: Uint32Array;
   readonly onProgress?: ProgressListener;
 }
 

@@ -14,7 +14,10 @@ export interface WorkerOptions extends LoadOptions {
 
 /** What every asynchronous call takes besides the options of its function. */
 export interface CallOptions {
-  /** Ends the work at once with `cancelled`; the signal's reason is the error's `cause`. */
+  /**
+   * Ends the work at once with `cancelled`; the signal's reason is the error's `cause`. With
+   * `bestSoFar` it ends with the best surface found until then, if there is one.
+   */
   readonly signal?: AbortSignal;
 }
 
@@ -24,7 +27,7 @@ export interface CallOptions {
  * `cancelled`, `disposed`, `crashed`; after any of them but `disposed` the next call works.
  */
 export interface Film {
-  /** Like the function of the package's main entry; `onProgress` is called in this thread. */
+  /** Like the function of the package's main entry; its listeners are called in this thread. */
   spanLoops(loops: LoopsLike, options?: SpanOptions & CallOptions): Promise<Span | NoSpan>;
   /** Ends all threads; calls under way, and later ones, are rejected with `disposed`. */
   dispose(): void;
@@ -50,8 +53,27 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
     pool.dispose();
   };
   return {
-    async spanLoops(loops, { signal, onProgress, ...rest } = {}) {
-      return (await pool.call('spanLoops', [loops, rest], signal, onProgress)) as Span | NoSpan;
+    async spanLoops(loops, { signal, onProgress, onBest, ...rest } = {}) {
+      // What is proven after the last surface was heard of holds for it as well.
+      let bound = 0;
+      const watch = {
+        signal,
+        onProgress:
+          onProgress || rest.bestSoFar
+            ? (fraction: number, cost: number, lowerBound: number) => {
+                bound = lowerBound;
+                onProgress?.(fraction, cost, lowerBound);
+              }
+            : undefined,
+        onBest: (value: unknown) => {
+          bound = 0;
+          onBest?.(value as Span);
+        },
+        keepsBest: rest.bestSoFar,
+      };
+      const span = (await pool.call('spanLoops', [loops, rest], watch)) as Span | NoSpan;
+      if (!span.found || span.optimal || span.lowerBound >= bound) return span;
+      return { ...span, lowerBound: Math.min(bound, span.cost) };
     },
     dispose,
     [kDispose]: dispose,

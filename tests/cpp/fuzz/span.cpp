@@ -102,6 +102,10 @@ extern "C" int32_t sf_host_progress(double, double, double) {
   return spent.count() < kSecondsPerInput;
 }
 
+extern "C" void sf_host_result(const SfResult* result) {
+  require(sf_result_length(result, 1) > 0, "a surface so far has triangles");
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Bytes in(data, size);
   const uint32_t loopCount = in.below(6);
@@ -123,8 +127,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   for (double& x : positions) x = in.coordinate();
   if (hasNormals)
     for (uint32_t i = 0; i < 3 * n; ++i) normals.push_back(in.below(5) ? in.coordinate() : NAN);
-  std::vector<uint32_t> triangles(3 * size_t(triangleCount));
+  std::vector<uint32_t> triangles(3 * size_t(triangleCount)), start(3 * size_t(in.below(9)));
   for (uint32_t& v : triangles) v = in.below(n + 1);
+  for (uint32_t& v : start) v = in.below(n + 3);
   for (uint32_t i = 0; i < triangleCount; ++i) triangleWeights.push_back(in.weight());
 
   inputBegan = std::chrono::steady_clock::now();
@@ -133,8 +138,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const SfStatus status = sf_span_loops(
       positions.data(), starts.data(), loopCount, hasNormals ? normals.data() : nullptr,
       space == 4 ? triangles.data() : nullptr, triangleCount,
-      hasTriangleWeights && space == 4 ? triangleWeights.data() : nullptr, settings, where,
-      &result);
+      hasTriangleWeights && space == 4 ? triangleWeights.data() : nullptr,
+      start.empty() ? nullptr : start.data(), uint32_t(start.size() / 3), settings, where, &result);
   require((status <= 1) == (result != nullptr), "a result exactly for status 0 and 1");
   require(status >= 0 && status <= 14, "a status of the list");
   if (status == 0) checkSurface(result, loopCount);

@@ -54,17 +54,25 @@ SfResult* pack(sf::Span&& span, size_t peakBytes) {
   return result;
 }
 
+void tellHost(void* user, const sf::Span& best) {
+  SfResult* result = pack(sf::Span(best), static_cast<const sf::Work*>(user)->peak());
+  sf_host_result(result);
+  sf_result_free(result);
+}
+
 }  // namespace
 
 extern "C" SfStatus sf_span_loops(const double* positions, const uint32_t* starts,
                                   uint32_t loopCount, const double* boundaryNormals,
                                   const uint32_t* triangles, uint32_t triangleCount,
-                                  const double* triangleWeights, const double* settings,
-                                  uint32_t* where, SfResult** result) {
+                                  const double* triangleWeights, const uint32_t* start,
+                                  uint32_t startCount, const double* settings, uint32_t* where,
+                                  SfResult** result) {
   *result = nullptr;
   sf::Outcome outcome = checkStarts(starts, loopCount);
   const double maxBytes = settings[5];
-  if (outcome.ok() && (!isChoice(settings[3], 1) || !isChoice(settings[4], 4) || !(maxBytes >= 0)))
+  if (outcome.ok() && (!isChoice(settings[3], 1) || !isChoice(settings[4], 4) || !(maxBytes >= 0) ||
+                       !isChoice(settings[6], 1)))
     outcome = {sf::Status::BadOption};
   if (outcome.ok()) {
     const size_t n = starts[loopCount];
@@ -77,8 +85,12 @@ extern "C" SfStatus sf_span_loops(const double* positions, const uint32_t* start
     if (boundaryNormals) options.boundaryNormals = {boundaryNormals, 3 * n};
     if (triangles) options.triangles = {triangles, 3 * size_t(triangleCount)};
     if (triangleWeights) options.triangleWeights = {triangleWeights, triangleCount};
+    if (start) options.start = {start, 3 * size_t(startCount)};
+    options.bestSoFar = settings[6] == 1;
     const double most = double(size_t(-1));
     sf::Work work(maxBytes < most ? size_t(maxBytes) : size_t(-1), reportToHost, nullptr);
+    options.onBest = tellHost;
+    options.user = &work;
     const sf::LoopSet loops({reinterpret_cast<const sf::Vec3*>(positions), n},
                             {starts, size_t(loopCount) + 1});
     sf::Span span;

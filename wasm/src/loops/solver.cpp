@@ -2,217 +2,213 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "loops/fan_bound.h"
-#include "loops/relaxed_bound.h"
-#include "loops/two_loop_bound.h"
 
 namespace sf {
 namespace {
 
-/// The loop edge with the fewest triangles, by its first vertex: the fewest splits at the root.
-/// kNone if some loop edge has no triangle at all, so that no surface can reach it.
-uint32_t chooseRoot(const LoopSet& loops, const CandidateSet& set) {
-  uint32_t root = 0;
-  for (uint32_t v = 0; v < loops.vertexCount(); ++v) {
-    if (set.loopEdges[v] == kNone) return kNone;
-    if (set.degree(set.loopEdges[v]) < set.degree(set.loopEdges[root])) root = v;
-  }
-  return root;
-}
+/// Cuts to try before anything else, where surfaces on the way are of use, and between fans.
+constexpr uint32_t kFirstTries = 64;
+constexpr uint32_t kTriesPerRound = 24;
 
-/// A pass over one set of candidates: what to minimise, and where the recursion begins.
-struct Task {
-  const LoopSet& loops;
-  const CandidateSet& set;
-  const std::vector<double>& triangleCost;
-  Measure measure;
-  Work& work;
-  bool isObjective;  // whether costs are in the unit of the objective, to be told of on the way
+/// Sums in another order differ in the last digits.
+double withRounding(double cost) { return cost + 1e-9 * std::fabs(cost); }
 
-  void tell(double bestCost, double lowerBound) const {
-    if (isObjective) work.setBounds(bestCost, std::max(0.0, std::min(lowerBound, bestCost)));
+/// Solves one pass: keeps the best surface and the bound as they get better.
+class PassSolver {
+ public:
+  PassSolver(const Task& task, const SolveOptions& options, Surface& surface)
+      : task_(task), options_(options), surface_(surface), best_(task.measure, options.listener) {}
+
+  /// Looks for the optimum, from fraction `from` to `to` of the work. False when the work ended.
+  bool run(double from, double to);
+
+  Incumbent& best() { return best_; }
+  double lowerBound() const { return lowerBound_; }
+
+ private:
+  bool beginSearch();
+  bool lookForFirst();
+  bool solveByDomains(const Task& task, uint64_t maxSplits, Optimum& optimum);
+  bool solveSubset(const std::vector<uint32_t>& kept, uint64_t maxSplits, bool& reached);
+  bool solveByFans();
+  bool solveWhatIsLeft(FanBound& fans, const std::vector<double>& excess, uint64_t maxSplits,
+                       bool& solved);
+  void raise(double lowerBound) {
+    lowerBound_ = std::max(lowerBound_, std::min(lowerBound, best_.cost()));
+    task_.tell(best_.cost(), lowerBound_);
   }
+
+  const Task& task_;
+  const SolveOptions& options_;
+  Surface& surface_;  // where domains are counted
+  Incumbent best_;
+  std::unique_ptr<SurfaceSearch> search_;
+  double share_ = 1.25;  // candidates to look for a surface in, as a multiple of its triangles
+  double lowerBound_ = -kInfinity;
 };
 
-/// The optimum of a task, if it was reached.
-struct Optimum {
-  bool reached = false;
-  double cost = kInfinity;  // infinity: there is no surface
-  SplitOrder order;
-};
-
-/// Whether the candidates are many for the surface: dense arrays pay then, and fans do not, which
-/// have multipliers for each of them.
-bool isLarge(const LoopSet& loops, const CandidateSet& set) {
-  return double(set.size()) > 24 * (double(loops.vertexCount()) + 2.0 * loops.loopCount() - 4);
-}
-
-constexpr uint64_t kUnlimited = ~uint64_t(0);
-
-/// Solves a task by the domains of all its candidates, unless that takes more than `maxSplits` splits.
-/// False when the work ended.
-bool solveDirectly(const Task& task, uint64_t maxSplits, Optimum& optimum, Surface& surface) {
-  optimum = {};
-  const LoopSet& loops = task.loops;
-  const CandidateSet& set = task.set;
-  Work& work = task.work;
-  const uint32_t root = chooseRoot(loops, set);
-  if (root == kNone) {
-    optimum.reached = true;
-    return work.going();
-  }
-  SegmentTable segments;
-  if (!segments.compute(loops, set, task.triangleCost, task.measure, work)) return false;
-  const Pass pass{loops, set, task.triangleCost, task.measure, segments, work};
-  if (loops.loopCount() == 1) {
-    const uint32_t edge = set.loopEdges[root];
-    const ClosedSegment all{edge, segments.sideFrom(edge, loops.next(root))};
-    const uint32_t slot = segments.bestSplit(all, kNone);
-    optimum.reached = true;
-    optimum.cost = slot == kNone ? kInfinity : segments.splitValue(all, slot);
-    traceSegment(pass, all, kNone, optimum.order);
-    surface.domains += set.slotTriangle.size();
-    surface.minimalSets += set.slotTriangle.size();
-    return true;
-  }
-  const auto solveExactly = [&](LowerBound& bound) {
-    task.tell(kInfinity, bound.rootBound());
-    ExactSolver solver(pass, bound, root);
-    const bool solved = solver.solve(optimum.cost, optimum.order);
-    surface.domains += solver.domainCount();
-    surface.minimalSets += solver.minimalSetCount();
-    return solved;
-  };
-  if (loops.loopCount() == 2 && isLarge(loops, set)) {
-    TwoLoopBound bound(pass, root);
-    optimum.reached = bound.compute();
-    surface.domains += bound.domainCount();
-    return optimum.reached && solveExactly(bound);
-  }
-  RelaxedBound bound(pass);
-  const std::vector<uint32_t> rootShape = Domains(loops).root(root);
-  optimum.reached = bound.compute(rootShape, maxSplits);
-  surface.domains += bound.domainCount();
-  if (!optimum.reached) return work.going();
-  return solveExactly(bound);
-}
-
-/// The same over some of the candidates only; the order is in numbers of the whole set.
-bool solveSubset(const Task& task, const std::vector<uint32_t>& kept, uint64_t maxSplits,
-                 Optimum& optimum, Surface& surface) {
-  const uint64_t before = task.work.used();
-  CandidateSet subset;
-  std::vector<double> cost;
-  for (const uint32_t t : kept) cost.push_back(task.triangleCost[t]);
-  const bool good = buildSubset(task.loops, task.set, kept, task.work, subset) &&
-                    solveDirectly({task.loops, subset, cost, task.measure, task.work, false},
-                                  maxSplits, optimum, surface);
-  task.work.release(task.work.used() - before);
-  for (uint32_t& t : optimum.order) t = kept[t];
+bool PassSolver::solveByDomains(const Task& task, uint64_t maxSplits, Optimum& optimum) {
+  SolverCounts counts;
+  const bool good = solveDirectly(task, maxSplits, best_.cost(), optimum, counts);
+  surface_.domains += counts.domains;
+  surface_.minimalSets += counts.minimalSets;
   return good;
 }
 
-/// Solves a task that is too large for all its domains: bounds it by its fans, finds a surface among
-/// the triangles that look best by that bound, and then solves it over the triangles that the bound
-/// and this surface leave. Both get better from round to round, and the rounds longer.
-bool solveByFans(const Task& task, Optimum& optimum, Surface& surface) {
-  FanBound fans(task.loops, task.set, task.triangleCost, task.measure, task.work);
-  const double wanted = double(task.loops.vertexCount()) + 2.0 * task.loops.loopCount() - 4;
-  std::vector<double> excess;
-  std::vector<uint32_t> byExcess;
-  Optimum best;
-  double share = 1.25;  // candidates to look for a surface in, as a multiple of its triangles
-  uint64_t maxSplits = 400000;  // of each subset, some hundredths of a second
-  for (uint32_t round = 0; task.work.going(); ++round) {
-    task.work.setFraction(1 - 1 / (1 + 0.3 * round));
-    if (!fans.ascend(300, best.cost) || !fans.excess(excess)) return false;
-    if (fans.lowerBound() == kInfinity) break;
-    task.tell(best.cost, fans.lowerBound());
-    byExcess.clear();
-    for (uint32_t t = 0; t < excess.size(); ++t)
-      if (excess[t] < kInfinity) byExcess.push_back(t);
-    std::sort(byExcess.begin(), byExcess.end(), [&](uint32_t a, uint32_t b) {
-      return excess[a] < excess[b] || (excess[a] == excess[b] && a < b);
-    });
-    // How many of them a surface that is better than the best one can have.
-    const auto left = [&] {
-      // Sums in another order differ in the last digits.
-      const double most = best.cost + 1e-9 * std::fabs(best.cost) - fans.lowerBound();
-      const auto end = std::partition_point(byExcess.begin(), byExcess.end(),
-                                            [&](uint32_t t) { return !(excess[t] > most); });
-      return size_t(end - byExcess.begin());
-    };
-    for (;;) {
-      const size_t tried = std::min(left(), size_t(share * wanted) + 1);
-      std::vector<uint32_t> kept(byExcess.begin(), byExcess.begin() + std::ptrdiff_t(tried));
-      std::sort(kept.begin(), kept.end());
-      Optimum found;
-      if (!solveSubset(task, kept, maxSplits, found, surface)) return false;
-      if (found.cost < best.cost) best = found;
-      task.tell(best.cost, fans.lowerBound());
-      // Whatever uses a triangle that was left out costs more than the best surface.
-      if (found.reached && left() <= tried) {
-        optimum = best;
-        optimum.reached = true;
-        return true;
-      }
-      if (!found.reached) break;
-      share *= 1.5;
-    }
-    maxSplits *= 3;
-    share = std::max(1.25, share / 1.5);
-  }
-  optimum.reached = true;  // there is no surface, if the work has not ended
-  return task.work.going();
+/// Looks for a surface made of the triangles `kept` only.
+bool PassSolver::solveSubset(const std::vector<uint32_t>& kept, uint64_t maxSplits, bool& reached) {
+  const uint64_t before = task_.work.used();
+  CandidateSet subset;
+  std::vector<double> cost;
+  for (const uint32_t t : kept) cost.push_back(task_.triangleCost[t]);
+  Optimum found;
+  const bool good = buildSubset(task_.loops, task_.set, kept, task_.work, subset) &&
+                    solveByDomains({task_.loops, subset, cost, task_.measure, task_.work, false},
+                                   maxSplits, found);
+  task_.work.release(task_.work.used() - before);
+  for (uint32_t& t : found.order) t = kept[t];
+  reached = found.reached;
+  if (reached) best_.offer(std::move(found.order), found.cost);
+  return good;
 }
 
-/// The optimum of one pass, from fraction `from` to `to` of the work.
-bool runPass(const Task& task, double from, double to, uint64_t splitsPerVertex, Optimum& optimum,
-             Surface& surface) {
+/// Solves over the triangles of least excess: first over few, for a better surface, and then over all
+/// that a surface better than the best one can have, unless those are too many for `maxSplits`.
+bool PassSolver::solveWhatIsLeft(FanBound& fans, const std::vector<double>& excess,
+                                 uint64_t maxSplits, bool& solved) {
+  const double wanted = double(task_.loops.vertexCount()) + 2.0 * task_.loops.loopCount() - 4;
+  std::vector<uint32_t> byExcess;
+  for (uint32_t t = 0; t < excess.size(); ++t)
+    if (excess[t] < kInfinity) byExcess.push_back(t);
+  std::sort(byExcess.begin(), byExcess.end(), [&](uint32_t a, uint32_t b) {
+    return excess[a] < excess[b] || (excess[a] == excess[b] && a < b);
+  });
+  const auto left = [&] {
+    const double most = withRounding(best_.cost()) - fans.lowerBound();
+    const auto end = std::partition_point(byExcess.begin(), byExcess.end(),
+                                          [&](uint32_t t) { return !(excess[t] > most); });
+    return size_t(end - byExcess.begin());
+  };
+  solved = false;
+  for (;;) {
+    const size_t tried = std::min(left(), size_t(share_ * wanted) + 1);
+    std::vector<uint32_t> kept(byExcess.begin(), byExcess.begin() + std::ptrdiff_t(tried));
+    std::sort(kept.begin(), kept.end());
+    bool reached;
+    if (!solveSubset(kept, maxSplits, reached)) return false;
+    raise(fans.lowerBound());
+    if (!reached) break;
+    // Whatever uses a triangle that was left out costs more than the best surface.
+    solved = left() <= tried;
+    if (solved) break;
+    share_ *= 1.5;
+  }
+  share_ = std::max(1.25, share_ / 1.5);
+  return true;
+}
+
+/// Solves a task that is too large for all its domains: bounds it by its fans, finds surfaces by cuts
+/// and among the triangles that look best by that bound, and then solves it over the triangles that
+/// the bound and the best surface leave. Both get better from round to round, and the rounds longer.
+bool PassSolver::solveByFans() {
+  FanBound fans(task_.loops, task_.set, task_.triangleCost, task_.measure, task_.work);
+  if (!search_ && !beginSearch()) return false;
+  std::vector<double> excess;
+  uint64_t maxSplits = 400000;  // of each subset, some hundredths of a second
+  for (uint32_t round = 0; task_.work.going(); ++round) {
+    task_.work.setFraction(1 - 1 / (1 + 0.3 * round));
+    if (!fans.ascend(300, best_.cost())) return false;
+    raise(fans.lowerBound());
+    if (fans.lowerBound() == kInfinity) break;  // there is no surface
+    bool solved;
+    if (!search_->search(kTriesPerRound) || !fans.excess(excess) ||
+        !solveWhatIsLeft(fans, excess, maxSplits, solved))
+      return false;
+    if (solved) {
+      raise(best_.cost());
+      return true;
+    }
+    maxSplits *= 3;
+  }
+  return task_.work.going();
+}
+
+bool PassSolver::beginSearch() {
+  search_ = std::make_unique<SurfaceSearch>(task_, best_);
+  return options_.start.empty() || search_->startFrom(options_.start);
+}
+
+bool PassSolver::lookForFirst() {
+  return task_.loops.loopCount() == 1 || !options_.anytime ||
+         (beginSearch() && search_->search(kFirstTries));
+}
+
+bool PassSolver::run(double from, double to) {
+  const LoopSet& loops = task_.loops;
+  Work& work = task_.work;
   // Hubs make fans expensive: their labels may take what some times the candidates do.
-  const double fanBytes = FanBound::bytesFor(task.loops, task.set);
-  const bool direct = task.loops.loopCount() == 1 || task.measure.isWorst() ||
-                      isLarge(task.loops, task.set) || !task.work.fits(fanBytes) ||
-                      fanBytes > 40 * CandidateSet::bytesFor(double(task.set.size()));
-  const uint64_t n = task.loops.vertexCount();
-  const uint64_t firstSplits = splitsPerVertex < kUnlimited / n ? splitsPerVertex * n : kUnlimited;
-  task.work.phase(from, direct ? to : from + 0.2 * (to - from));
-  if (!solveDirectly(task, direct ? kUnlimited : firstSplits, optimum, surface)) return false;
-  if (optimum.reached) return true;
-  task.work.phase(from + 0.2 * (to - from), to);
-  return solveByFans(task, optimum, surface);
+  const double fanBytes = FanBound::bytesFor(loops, task_.set);
+  const bool direct = loops.loopCount() == 1 || task_.measure.isWorst() ||
+                      isLarge(loops, task_.set) || !work.fits(fanBytes) ||
+                      fanBytes > 40 * CandidateSet::bytesFor(double(task_.set.size()));
+  const uint64_t n = loops.vertexCount();
+  const uint64_t splits = options_.splitsPerVertex;
+  work.phase(from, direct ? to : from + 0.2 * (to - from));
+  if (!lookForFirst()) return false;
+  Optimum optimum;
+  const bool good =
+      solveByDomains(task_, direct || splits > kUnlimited / n ? kUnlimited : splits * n, optimum);
+  raise(optimum.lowerBound);
+  if (!good) return false;
+  if (optimum.reached) {
+    best_.offer(std::move(optimum.order), optimum.cost);
+    raise(optimum.cost);
+    return true;
+  }
+  work.phase(from + 0.2 * (to - from), to);
+  return solveByFans();
 }
 
 }  // namespace
 
-bool solveSurface(const LoopSet& loops, const CandidateSet& set, double dihedralWeight,
-                  Objective objective, Work& work, Surface& surface, uint64_t splitsPerVertex) {
+bool solveSurface(const LoopSet& loops, const CandidateSet& set, const SolveOptions& options,
+                  Work& work, Surface& surface) {
   surface = {};
-  Optimum optimum;
-  if (objective == Objective::Sum) {
-    const Task task{loops, set, set.weight, Measure::sum(dihedralWeight), work, true};
-    if (!runPass(task, 0, 1, splitsPerVertex, optimum, surface)) return false;
-    surface.lowerBound = optimum.cost;
-  } else {
-    const std::vector<double> angle =
-        set.boundaryAngle.empty() ? std::vector<double>(set.size(), 0) : set.boundaryAngle;
-    if (!runPass({loops, set, angle, Measure::worst(), work, true}, 0, 0.5, splitsPerVertex,
-                 optimum, surface))
-      return false;
-    if (optimum.cost == kInfinity) return true;
-    surface.lowerBound = optimum.cost;
-    const double cap = optimum.cost + kAngleTie;
-    std::vector<double> weight = set.weight;
-    for (size_t t = 0; t < weight.size(); ++t)
-      if (angle[t] > cap) weight[t] = kInfinity;
-    const Task task{loops, set, weight, Measure::sum(dihedralWeight, cap), work, false};
-    if (!runPass(task, 0.5, 1, splitsPerVertex, optimum, surface)) return false;
-    SF_ASSERT(optimum.cost < kInfinity);
+  const auto handBack = [&](PassSolver& pass, bool optimal) {
+    if (pass.best().cost() == kInfinity) return;
+    surface.found = true;
+    surface.order = pass.best().order();
+    surface.optimal = optimal;
+  };
+  if (options.objective == Objective::Sum) {
+    const Task task{loops, set, set.weight, Measure::sum(options.dihedralWeight), work, true};
+    PassSolver pass(task, options, surface);
+    const bool done = pass.run(0, 1);
+    surface.lowerBound = pass.lowerBound();
+    handBack(pass, done);
+    return done;
   }
-  surface.found = optimum.cost < kInfinity;
-  surface.order = std::move(optimum.order);
-  return true;
+  const std::vector<double> angle =
+      set.boundaryAngle.empty() ? std::vector<double>(set.size(), 0) : set.boundaryAngle;
+  const Task worst{loops, set, angle, Measure::worst(), work, true};
+  PassSolver first(worst, options, surface);
+  const bool worstKnown = first.run(0, 0.5);
+  surface.lowerBound = std::max(0.0, first.lowerBound());
+  handBack(first, false);
+  if (!worstKnown || !surface.found) return worstKnown;
+  const double cap = first.best().cost() + kAngleTie;
+  std::vector<double> weight = set.weight;
+  for (size_t t = 0; t < weight.size(); ++t)
+    if (angle[t] > cap) weight[t] = kInfinity;
+  const Task sum{loops, set, weight, Measure::sum(options.dihedralWeight, cap), work, false};
+  PassSolver second(sum, options, surface);
+  const bool done = second.run(0.5, 1);
+  SF_ASSERT(!done || second.best().cost() < kInfinity);
+  handBack(second, done);
+  return done;
 }
 
 double predictedTimeOfAllTriples(const LoopSet& loops) {

@@ -6,6 +6,7 @@
 #include "loops/candidate_set.h"
 #include "loops/exact_solver.h"
 #include "loops/span.h"
+#include "loops/surface_search.h"
 
 namespace sf {
 
@@ -20,13 +21,25 @@ struct Surface {
 /// Of a first try by domains alone. Fans cost in proportion to the vertices as well.
 constexpr uint64_t kSplitsPerVertex = 10000;
 
+struct SolveOptions {
+  double dihedralWeight = 1;
+  Objective objective = Objective::Sum;
+  /// Whether surfaces on the way are of use: then they are looked for before the optimum is.
+  bool anytime = false;
+  /// [3m] vertices of a surface to begin from, or empty; it need not be one any more.
+  ArrayView<const uint32_t> start;
+  /// Splits of domains after which several loops are bounded by their fans first; what it is changes
+  /// the time, not the result.
+  uint64_t splitsPerVertex = kSplitsPerVertex;
+  /// Is told of every surface that is better in the objective than the one before, or null.
+  SurfaceListener* listener = nullptr;
+};
+
 /// The surface of least weighted sum, or of least largest angle and then of least sum, where angles
-/// within kAngleTie of the least possible one count as tied with it. False when the work ended.
-///   splitsPerVertex  splits of domains after which several loops are bounded by their fans first;
-///                    what it is changes the time, not the result
-bool solveSurface(const LoopSet& loops, const CandidateSet& set, double dihedralWeight,
-                  Objective objective, Work& work, Surface& surface,
-                  uint64_t splitsPerVertex = kSplitsPerVertex);
+/// within kAngleTie of the least possible one count as tied with it. False when the work ended: then
+/// `surface` is the best one so far, if any was found, not optimal, and with the bound proven.
+bool solveSurface(const LoopSet& loops, const CandidateSet& set, const SolveOptions& options,
+                  Work& work, Surface& surface);
 
 /// About how many nanoseconds solving over all triples takes in native code; infinity beyond
 /// double's range.

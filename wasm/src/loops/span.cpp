@@ -284,17 +284,59 @@ class Spanning {
     const TriangleWeights weights = triangleWeights(problem, own);
     CandidateSet set;
     Surface surface;
+    Told told(*this, problem, set, own);
+    const std::vector<uint32_t> start = startIn(problem);
+    SolveOptions solving;
+    solving.dihedralWeight = dihedralWeight_;
+    solving.objective = options_.objective;
+    solving.anytime = options_.bestSoFar;
+    solving.start = start;
+    solving.listener = options_.bestSoFar && options_.onBest ? &told : nullptr;
     const uint64_t before = work_.used();
-    const bool done =
-        buildCandidateSet(problem.loops, weights, std::move(triples), work_, set) &&
-        solveSurface(problem.loops, set, dihedralWeight_, options_.objective, work_, surface);
+    const bool done = buildCandidateSet(problem.loops, weights, std::move(triples), work_, set) &&
+                      solveSurface(problem.loops, set, solving, work_, surface);
     work_.release(work_.used() - before);
     result_.domains += surface.domains;
     result_.minimalSets += surface.minimalSets;
-    if (!done) return {work_.status()};
+    if (!done && !(options_.bestSoFar && surface.found)) return {work_.status()};
     if (!surface.found) return {Status::NotFound};
     handBack(problem, set, surface, own);
     return {};
+  }
+
+  /// Hands every better surface on to the caller.
+  class Told final : public SurfaceListener {
+   public:
+    Told(Spanning& spanning, const Problem& problem, const CandidateSet& set,
+         const std::vector<double>& own)
+        : spanning_(spanning), problem_(problem), set_(set), own_(own) {}
+    void better(const SplitOrder& order) override {
+      Surface surface;
+      surface.order = order;
+      surface.optimal = false;
+      spanning_.handBack(problem_, set_, surface, own_);
+      spanning_.options_.onBest(spanning_.options_.user, spanning_.result_);
+      spanning_.result_.found = false;
+    }
+
+   private:
+    Spanning& spanning_;
+    const Problem& problem_;
+    const CandidateSet& set_;
+    const std::vector<double>& own_;
+  };
+
+  /// The caller's surface to begin from in the numbers of the problem, without the triangles that
+  /// have vertices which are no more.
+  std::vector<uint32_t> startIn(const Problem& problem) const {
+    std::vector<uint32_t> number(problem.resultIndex.size(), kNone), start;
+    for (uint32_t v = 0; v < problem.resultIndex.size(); ++v) number[problem.resultIndex[v]] = v;
+    for (size_t i = 0; i + 2 < options_.start.size(); i += 3) {
+      const uint32_t* v = &options_.start[i];
+      if (std::max({v[0], v[1], v[2]}) >= number.size()) continue;
+      start.insert(start.end(), {number[v[0]], number[v[1]], number[v[2]]});
+    }
+    return start;
   }
 
   void handBack(const Problem& problem, const CandidateSet& set, const Surface& surface,

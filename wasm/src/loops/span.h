@@ -13,6 +13,8 @@ namespace sf {
 enum class Space : int32_t { Auto = 0, All = 1, Delaunay = 2, Near = 3, Given = 4 };
 enum class Objective : int32_t { Sum = 0, WorstDihedral = 1 };
 
+struct Span;
+
 struct SpanOptions {
   double areaWeight = 0;       // per square unit; NaN: 1e-3 / (bounding-box diagonal)^2
   double perimeterWeight = 0;  // per unit of triangle perimeter
@@ -22,6 +24,15 @@ struct SpanOptions {
   ArrayView<const double> boundaryNormals;  // [3n] or empty; NaN triple: no face across that edge
   ArrayView<const uint32_t> triangles;      // [3c] for Space::Given
   ArrayView<const double> triangleWeights;  // [c] added to each candidate's weight, or empty
+  /// Several loops: [3m] triangles of an earlier answer to begin from, in the numbers of
+  /// Span::positions; what does not fit any more does no harm.
+  ArrayView<const uint32_t> start;
+  /// Whether the best surface found comes back when the work ends before the optimum is known. For
+  /// that, surfaces are looked for first, which takes some time.
+  bool bestSoFar = false;
+  /// With bestSoFar: called with every surface that is better than the one before, or null.
+  void (*onBest)(void* user, const Span& best) = nullptr;
+  void* user = nullptr;
 };
 
 /// Sums over a surface. Angles in radians between consistently oriented normals.
@@ -59,6 +70,8 @@ struct Span {
 /// Spans the loops with the surface of least cost among all edge- and vertex-manifold, connected,
 /// orientable surfaces of sphere-with-k-holes topology made of candidate triangles.
 /// `result.found` is false, with status Ok, if the space holds no such surface.
+/// With `bestSoFar`, Stopped and OutOfMemory come back only if no surface was found at all; else the
+/// status is Ok and the surface the best one so far, with `optimal` false.
 /// Checks its input: every Status but NotFound can come back; see the list in base/status.h.
 Outcome spanLoops(const LoopSet& loops, const SpanOptions& options, Work& work, Span& result);
 

@@ -1,0 +1,53 @@
+// One pass over one candidate set, solved by domains alone: for few loops, or few candidates.
+// Source: Zou, Ju, Carr 2013, sec. 3: eq. 2 for one loop, figure 6 for several.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "loops/candidate_set.h"
+#include "loops/exact_solver.h"
+#include "loops/weight.h"
+
+namespace sf {
+
+/// What a pass minimises, and over what.
+struct Task {
+  const LoopSet& loops;
+  const CandidateSet& set;
+  const std::vector<double>& triangleCost;  // [c] w(t) in the measure; infinity: not allowed
+  Measure measure;
+  Work& work;
+  bool isObjective;  // whether costs are in the unit of the objective, to be told of on the way
+
+  /// Reports a cost and a bound that are now known.
+  void tell(double bestCost, double lowerBound) const {
+    if (isObjective) work.setBounds(bestCost, std::max(0.0, std::min(lowerBound, bestCost)));
+  }
+};
+
+/// The optimum of a task, if it was reached.
+struct Optimum {
+  bool reached = false;
+  double cost = kInfinity;         // infinity: there is no surface
+  double lowerBound = -kInfinity;  // proven, also if the optimum was not reached
+  SplitOrder order;
+};
+
+struct SolverCounts {
+  uint64_t domains = 0, minimalSets = 0;
+};
+
+constexpr uint64_t kUnlimited = ~uint64_t(0);
+
+/// Solves a task by the domains of all its candidates, unless that takes more than `maxSplits`
+/// splits (several loops only), which leaves `optimum.reached` false. False when the work ended.
+///   incumbent  cost of a surface that is known, only to be told of
+bool solveDirectly(const Task& task, uint64_t maxSplits, double incumbent, Optimum& optimum,
+                   SolverCounts& counts);
+
+/// Whether the candidates are many for the surface: dense arrays pay then, and fans do not, which
+/// have multipliers for each of them.
+bool isLarge(const LoopSet& loops, const CandidateSet& set);
+
+}  // namespace sf
