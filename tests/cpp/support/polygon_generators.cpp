@@ -456,6 +456,7 @@ Polygon smallPolygon(Random& random) {
     case 9:
       return starsInHoles(1 + random.below(2), 1 + random.below(2), 5 + n / 5, random);
     case 10:
+    case 11:
       return latticeRegion(3 + n / 10, 2 + n, random.chance(0.5), random.chance(0.5), random);
     default:
       return polygonOf({partitionRing(n, random)});

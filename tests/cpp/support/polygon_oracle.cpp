@@ -89,8 +89,9 @@ class Judge {
       : polygon_(polygon), points_(integers<N>(polygon, shift)), rings_(distinctRings(polygon)) {
     for (uint32_t r = 0; r < rings_.size(); ++r) {
       const auto& ring = rings_[r];
-      if (ring.size() < 3) {
+      if (isFlat(ring)) {
         faults_ |= kDegenerate;
+        rings_[r].clear();
         continue;
       }
       for (uint32_t i = 0; i < ring.size(); ++i)
@@ -168,6 +169,12 @@ class Judge {
     faults_ |= next && meeting == Meeting::Overlap ? kDegenerate : kSelfIntersecting;
   }
 
+  /// Whether all of a ring is on one line: then no more needs to be said of it.
+  bool isFlat(const std::vector<uint32_t>& ring) const {
+    for (size_t i = 2; i < ring.size(); ++i)
+      if (side(ring[0], ring[1], ring[i]) != 0) return false;
+    return true;
+  }
   int areaSign(uint32_t r) const {
     exact::Int<N> sum;
     const auto& ring = rings_[r];
@@ -210,7 +217,7 @@ class Judge {
   void judgePiece(const Edge& e, uint32_t p, uint32_t q) {
     const uint32_t k = uint32_t(rings_.size());
     for (uint32_t r = 0; r < k; ++r) {
-      if (clash_[e.ring * k + r] || rings_[r].size() < 3) continue;
+      if (clash_[e.ring * k + r] || rings_[r].empty()) continue;
       if (r == e.ring) {
         // The ray sees what is to the right of an edge that goes up, above one that is level.
         const double dx = at(e.b).x - at(e.a).x, dy = at(e.b).y - at(e.a).y;
