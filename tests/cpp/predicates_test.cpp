@@ -22,6 +22,9 @@ BigPoint flat(const Vec3& p) { return {big(p).x, big(p).y, Big(0)}; }
 int exactOrient2d(const Vec3& a, const Vec3& b, const Vec3& c) {
   return exact::cross(flat(b) - flat(a), flat(c) - flat(a)).z.sign();
 }
+int exactTurn2d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return exact::cross(flat(b) - flat(a), flat(d) - flat(c)).z.sign();
+}
 int exactOrient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return exact::volume6(big(a), big(b), big(c), big(d)).sign();
 }
@@ -184,6 +187,7 @@ TEST_CASE("predicates: every sign agrees with exact integer arithmetic") {
       int sphere = exactInsphere(a, b, c, d, e);
       zeros += sphere == 0;
       wrong += sf::orient2d(a.x, a.y, b.x, b.y, c.x, c.y) != exactOrient2d(a, b, c);
+      wrong += sf::turn2d(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y) != exactTurn2d(a, b, c, d);
       wrong += sf::orient3d(a, b, c, d) != exactOrient3d(a, b, c, d);
       wrong += sf::insphere(a, b, c, d, e) != sphere;
       int circle = sf::incircle(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y);

@@ -81,6 +81,13 @@ typename S::Number orient2dIn(double ax, double ay, double bx, double by, double
 }
 
 template <class S>
+typename S::Number turn2dIn(double ax, double ay, double bx, double by, double cx, double cy,
+                            double dx, double dy) {
+  return minor2(S::difference(bx, ax), S::difference(by, ay), S::difference(dx, cx),
+                S::difference(dy, cy));
+}
+
+template <class S>
 typename S::Number orient3dIn(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   using N = typename S::Number;
   N ax = S::difference(a.x, d.x), ay = S::difference(a.y, d.y), az = S::difference(a.z, d.z);
@@ -194,6 +201,15 @@ int orient2d(double ax, double ay, double bx, double by, double cx, double cy) {
   double bound = kOrient2dBound * mx * my + kTiny;
   if (std::fabs(det) > bound) return signOf(det);
   return orient2dIn<InExpansion>(ax, ay, bx, by, cx, cy).sign();
+}
+
+int turn2d(double ax, double ay, double bx, double by, double cx, double cy, double dx, double dy) {
+  double det = turn2dIn<InDouble>(ax, ay, bx, by, cx, cy, dx, dy);
+  double mx = max2(std::fabs(bx - ax), std::fabs(dx - cx));
+  double my = max2(std::fabs(by - ay), std::fabs(dy - cy));
+  double bound = kOrient2dBound * mx * my + kTiny;
+  if (std::fabs(det) > bound) return signOf(det);
+  return turn2dIn<InExpansion>(ax, ay, bx, by, cx, cy, dx, dy).sign();
 }
 
 int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {

@@ -27,6 +27,10 @@ int scaleToUnit(ArrayView<const Vec3> points, std::vector<Vec3>& scaled);
 /// +1 if a, b, c make a left turn in the plane, -1 for a right turn, 0 if collinear.
 int orient2d(double ax, double ay, double bx, double by, double cx, double cy);
 
+/// The sign of (b-a) x (d-c): +1 if the direction from c to d is left of that from a to b, 0 if they
+/// are parallel. Which of c and d lies farther to the left of the line through a and b.
+int turn2d(double ax, double ay, double bx, double by, double cx, double cy, double dx, double dy);
+
 /// The sign of (b-a) x (c-a) . (d-a): +1 if a, b, c turn left seen from d, 0 if coplanar.
 int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 

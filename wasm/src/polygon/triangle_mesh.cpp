@@ -1,0 +1,135 @@
+#include "polygon/triangle_mesh.h"
+
+#include "base/charge.h"
+#include "base/predicates.h"
+
+namespace sf {
+
+bool findTwins(ArrayView<const uint32_t> corners, uint32_t vertexCount, Work& work,
+               std::vector<uint32_t>& twins) {
+  const uint32_t count = uint32_t(corners.size());
+  Charge charge(work);
+  if (!charge.add(4 * (uint64_t(count) + vertexCount + 1))) return false;
+  // The half-edges out of each vertex, in one array.
+  std::vector<uint32_t> starts(size_t(vertexCount) + 1, 0), out(count);
+  for (const uint32_t v : corners) ++starts[v];
+  for (uint32_t v = 0, sum = 0; v <= vertexCount; ++v) starts[v] = sum += starts[v];
+  for (uint32_t h = count; h-- > 0;) out[--starts[corners[h]]] = h;
+
+  const auto end = [&](uint32_t h) { return corners[nextInTriangle(h)]; };
+  const auto degree = [&](uint32_t v) { return starts[v + 1] - starts[v]; };
+  twins.assign(count, kNone);
+  for (uint32_t h = 0; h < count; ++h) {
+    if (twins[h] != kNone) continue;
+    const uint32_t a = corners[h], b = end(h);
+    // The twin runs from b to a. Looking at the end with fewer half-edges keeps this linear in all:
+    // the sum over the edges of a planar graph of the lesser degree is.
+    const bool atB = degree(b) <= degree(a);
+    const uint32_t v = atB ? b : a;
+    for (uint32_t i = starts[v]; i < starts[v + 1]; ++i) {
+      const uint32_t g = atB ? out[i] : prevInTriangle(out[i]);
+      if (twins[g] != kNone || corners[g] != b || end(g) != a) continue;
+      twins[h] = g, twins[g] = h;
+      break;
+    }
+    if (!work.tick(16)) return false;
+  }
+  return true;
+}
+
+int TriangleMesh::orient(uint32_t a, uint32_t b, uint32_t c) const {
+  return orient2d(at[a].x, at[a].y, at[b].x, at[b].y, at[c].x, at[c].y);
+}
+
+bool TriangleMesh::isIllegal(uint32_t h) const {
+  const uint32_t g = twins[h];
+  if (g == kNone) return false;
+  const Point2 a = at[from(h)], b = at[to(h)], c = at[apex(h)], d = at[apex(g)];
+  return incircle(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y) > 0;
+}
+
+void TriangleMesh::findEdges() {
+  edgeFrom.assign(at.size(), kNone);
+  for (uint32_t h = 0; h < corners.size(); ++h)
+    if (edgeFrom[corners[h]] == kNone || twins[h] == kNone) edgeFrom[corners[h]] = h;
+}
+
+void TriangleMesh::flip(uint32_t h) {
+  const uint32_t g = twins[h], h1 = nextInTriangle(h), g1 = nextInTriangle(g);
+  const uint32_t c = apex(h), d = apex(g), acrossH1 = twins[h1], acrossG1 = twins[g1];
+  moveEdge(g1, h);  // from a
+  moveEdge(h1, g);  // from b
+  corners[h1] = d;
+  corners[g1] = c;
+  setTwins(h, acrossG1);
+  setTwins(g, acrossH1);
+  setTwins(h1, g1);
+}
+
+void TriangleMesh::splitTriangle(uint32_t h, uint32_t v) {
+  const uint32_t h1 = nextInTriangle(h), h2 = prevInTriangle(h);
+  const uint32_t b = corners[h1], c = corners[h2];
+  const uint32_t across1 = twins[h1], across2 = twins[h2];
+  const uint32_t p = uint32_t(corners.size()), q = p + 3;
+  corners.insert(corners.end(), {b, c, v, c, corners[h], v});
+  twins.resize(corners.size(), kNone);
+  moveEdge(h1, p);
+  moveEdge(h2, q);
+  corners[h2] = v;
+  setTwins(p, across1);
+  setTwins(q, across2);
+  setTwins(h1, p + 2);     // b v
+  setTwins(p + 1, q + 2);  // c v
+  setTwins(q + 1, h2);     // a v
+  if (!edgeFrom.empty()) edgeFrom[v] = h2;
+}
+
+void TriangleMesh::splitEdge(uint32_t h, uint32_t v) {
+  const uint32_t g = twins[h], h1 = nextInTriangle(h), g1 = nextInTriangle(g);
+  const uint32_t a = corners[h], b = corners[h1], c = apex(h), d = apex(g);
+  const uint32_t acrossBc = twins[h1], acrossAd = twins[g1];
+  const uint32_t p = uint32_t(corners.size()), q = p + 3;
+  // h: a v c, p: v b c; g: b v d, q: v a d.
+  corners.insert(corners.end(), {v, b, c, v, a, d});
+  twins.resize(corners.size(), kNone);
+  moveEdge(h1, p + 1);
+  moveEdge(g1, q + 1);
+  corners[h1] = v;
+  corners[g1] = v;
+  setTwins(p + 1, acrossBc);
+  setTwins(q + 1, acrossAd);
+  setTwins(h1, p + 2);  // v c
+  setTwins(g1, q + 2);  // v d
+  setTwins(h, q);       // a v
+  setTwins(g, p);       // b v
+  if (!edgeFrom.empty()) edgeFrom[v] = h1;
+}
+
+void TriangleMesh::insert(Place place, uint32_t v, std::vector<uint32_t>& opposite) {
+  const uint32_t h = place.edge, g = twins[h], created = uint32_t(corners.size());
+  if (place.onEdge) {
+    splitEdge(h, v);
+    opposite.insert(opposite.end(),
+                    {prevInTriangle(h), prevInTriangle(g), created + 1, created + 4});
+  } else {
+    splitTriangle(h, v);
+    opposite.insert(opposite.end(), {h, created, created + 3});
+  }
+}
+
+uint32_t legalize(TriangleMesh& mesh, std::vector<uint32_t>& edges, uint32_t budget, Work& work) {
+  while (!edges.empty() && budget > 0) {
+    const uint32_t h = edges.back();
+    edges.pop_back();
+    if (!work.tick(32)) break;
+    if (!mesh.isIllegal(h)) continue;
+    const uint32_t g = mesh.twins[h];
+    mesh.flip(h);
+    --budget;
+    edges.insert(edges.end(), {h, prevInTriangle(h), g, prevInTriangle(g)});
+  }
+  edges.clear();
+  return budget;
+}
+
+}  // namespace sf
