@@ -13,6 +13,7 @@
 // O(n log n) in the worst case, and takes an edge that continues another without any search.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "base/status.h"
@@ -28,6 +29,8 @@ struct Visibility {
   std::vector<uint32_t> order;        // used nodes by increasing height
   std::vector<uint32_t> left, right;  // [m]
 };
+
+struct SweepState;  // sweep_state.h
 
 /// The sweep with the memory that it keeps from one polygon to the next.
 class PlaneSweep {
@@ -58,8 +61,7 @@ class PlaneSweep {
               Visibility& seen);
 
  private:
-  struct State;
-  State* state_;
+  std::unique_ptr<SweepState> state_;
 };
 
 }  // namespace sf

@@ -1,0 +1,230 @@
+#include "polygon/flood.h"
+
+#include "base/charge.h"
+#include "polygon/turn.h"
+
+namespace sf {
+
+bool Flood::run(const LinkedPolygon& loops, const Visibility& seen, Work& work,
+                std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace) {
+  Charge charge(work);
+  const size_t m = loops.at.size();
+  size_t bridges = 0;
+  for (uint32_t v : seen.order) bridges += loops.kind[v] != VertexKind::Bottom;
+  if (!charge.add((m + 2 * bridges) * sizeof(Node))) return false;
+  nodes_.resize(m + 2 * bridges);
+  // Every triangle takes one corner away; a bridge adds two.
+  const size_t before = triangles.size();
+  triangles.resize(before + 3 * (m + 2 * bridges));
+  out_ = outBegin_ = triangles.data() + before;
+  trace_ = trace;
+  const bool done = begin(loops, seen, work) && floodGorges(work);
+  triangles.resize(before + size_t(out_ - outBegin_));
+  return done;
+}
+
+bool Flood::begin(const LinkedPolygon& loops, const Visibility& seen, Work& work) {
+  const size_t m = loops.at.size();
+  for (size_t v = 0; v < m; ++v)
+    nodes_[v] = {loops.at[v], loops.next[v], loops.prev[v], loops.vertex[v],
+                 kNone,       kNone,         loops.kind[v]};
+  used_ = m;
+  bottoms_.clear(), pending_.clear();
+  nextBottom_ = spilled_ = 0, spilledTo_ = kNone;
+  for (size_t i = seen.order.size(); i-- > 0;) {
+    // From the highest to the lowest, so that each comes before those above it.
+    const uint32_t v = seen.order[i];
+    if (nodes_[v].kind == VertexKind::Bottom) bottoms_.push_back(v);
+    if (nodes_[v].kind != VertexKind::Sag && nodes_[v].kind != VertexKind::Island) continue;
+    const uint32_t edge = seen.left[v];
+    if (edge == kNone) return false;
+    nodes_[v].jump = nodes_[edge].sag;
+    nodes_[edge].sag = v;
+  }
+  return work.tick(uint32_t(m < (1u << 26) ? m * 4 : 1u << 28));
+}
+
+bool Flood::floodGorges(Work& work) {
+  uint32_t steps = 0;
+  while (start()) {
+    for (Step now = Step::On; now == Step::On;) {
+      now = step();
+      if (now == Step::Forbidden) return false;
+      if (++steps % 1024 == 0 && !work.tick(30 * 1024)) return false;
+    }
+  }
+  return spilled_ == 0;
+}
+
+/// The next gorge: the one that was spilled into, else the last that a bridge has cut off, else
+/// that of the lowest bottom.
+bool Flood::start() {
+  if (spilledTo_ == kNone && !pending_.empty()) {
+    chain_ = pending_.back();
+    pending_.pop_back();
+    note(FloodAction::Start);
+    return true;
+  }
+  uint32_t bottom = spilledTo_;
+  spilledTo_ = kNone;
+  while (bottom == kNone && nextBottom_ < bottoms_.size()) {
+    bottom = bottoms_[bottoms_.size() - ++nextBottom_];
+    if (nodes_[bottom].kind != VertexKind::Bottom) bottom = kNone;
+  }
+  if (bottom == kNone) return false;
+  nodes_[bottom].kind = VertexKind::Unused;
+  chain_ = {bottom, bottom, bottom};
+  note(FloodAction::Start);
+  return true;
+}
+
+/// One transition: the decision tree of fig. 9.
+Flood::Step Flood::step() {
+  const uint32_t nextLeft = nodes_[chain_.left].prev, nextRight = nodes_[chain_.right].next;
+  if (nextLeft == nextRight) {
+    fill(nextLeft);
+    return Step::Done;
+  }
+  const bool left = below(nodes_[nextLeft].at, nodes_[nextRight].at);
+  const uint32_t next = left ? nextLeft : nextRight, end = left ? chain_.left : chain_.right;
+  if (nodes_[end].kind == VertexKind::Top) {
+    uint32_t& jump = nodes_[end].jump;
+    if (jump == kNone) {
+      spill(end, left);
+      return Step::Done;
+    }
+    (left ? chain_.left : chain_.right) = jump;
+    chain_.highest = end;
+    nodes_[end].kind = VertexKind::Unused;
+    --spilled_;
+    note(FloodAction::Jump);
+    return Step::On;
+  }
+  const uint32_t sag = nodes_[chain_.left].sag;
+  if (sag != kNone && below(nodes_[sag].at, nodes_[next].at))
+    return bridge(sag) ? Step::On : Step::Forbidden;
+  return (left ? raiseLeft(next) : raiseRight(next)) ? Step::On : Step::Forbidden;
+}
+
+/// Adds v to the left end of the chain, and the wedge of triangles that v sees of it.
+bool Flood::raiseLeft(uint32_t v) {
+  Node& apex = nodes_[v];
+  if (apex.kind == VertexKind::LeftBank)
+    apex.kind = VertexKind::Unused;
+  else if (apex.kind != VertexKind::Top)
+    return false;
+  uint32_t c = chain_.left;
+  while (c != chain_.right) {
+    const uint32_t d = nodes_[c].next;
+    if (!(turn(apex.at, nodes_[c].at, nodes_[d].at) > 0)) break;
+    emit(apex, nodes_[c], nodes_[d]);
+    c = d;
+  }
+  link(v, c);
+  chain_.left = chain_.highest = v;
+  note(FloodAction::Raise);
+  return true;
+}
+
+bool Flood::raiseRight(uint32_t v) {
+  Node& apex = nodes_[v];
+  if (apex.kind == VertexKind::RightBank)
+    apex.kind = VertexKind::Unused;
+  else if (apex.kind != VertexKind::Top)
+    return false;
+  uint32_t c = chain_.right;
+  while (c != chain_.left) {
+    const uint32_t d = nodes_[c].prev;
+    if (!(turn(nodes_[d].at, nodes_[c].at, apex.at) > 0)) break;
+    emit(nodes_[d], nodes_[c], apex);
+    c = d;
+  }
+  link(c, v);
+  chain_.right = chain_.highest = v;
+  note(FloodAction::Raise);
+  return true;
+}
+
+void Flood::fill(uint32_t ceiling) {
+  for (uint32_t c = chain_.left; c != chain_.right; c = nodes_[c].next)
+    emit(nodes_[ceiling], nodes_[c], nodes_[nodes_[c].next]);
+  note(FloodAction::Fill);
+}
+
+/// Joins the sag to the highest vertex of the chain, both ways. The gorge to the left goes on, the
+/// one to the right waits.
+bool Flood::bridge(uint32_t sag) {
+  nodes_[chain_.left].sag = nodes_[sag].jump;
+  nodes_[sag].jump = kNone;
+  if (nodes_[sag].kind == VertexKind::Island) {
+    bridgeIsland(sag);
+    return true;
+  }
+  if (nodes_[sag].kind != VertexKind::Sag) return false;
+  const uint32_t high = chain_.highest, afterHigh = nodes_[high].next, afterSag = nodes_[sag].next;
+  // Sags are kept under nodes of left banks, which therefore stay themselves.
+  const uint32_t highOnRight = copyOf(high), sagOnLeft = copyOf(sag);
+  link(high, sagOnLeft), link(sagOnLeft, afterSag);
+  link(sag, highOnRight), link(highOnRight, afterHigh);
+  nodes_[sag].kind = VertexKind::LeftBank, nodes_[sagOnLeft].kind = VertexKind::RightBank;
+  pending_.push_back({highOnRight, high == chain_.right ? highOnRight : chain_.right, highOnRight});
+  chain_.right = chain_.highest = high;
+  note(FloodAction::Bridge);
+  return true;
+}
+
+/// The same for an isolated vertex, whose two gorges join at once: it becomes part of the chain,
+/// with a wedge of triangles on either side.
+void Flood::bridgeIsland(uint32_t sag) {
+  const uint32_t high = chain_.highest, afterHigh = nodes_[high].next;
+  const uint32_t highOnRight = copyOf(high);
+  if (high == chain_.right) chain_.right = highOnRight;
+  link(highOnRight, afterHigh);
+  Node& apex = nodes_[sag];
+  apex.kind = VertexKind::Unused;
+  uint32_t c = high;
+  while (c != chain_.left) {
+    const uint32_t d = nodes_[c].prev;
+    if (!(turn(nodes_[d].at, nodes_[c].at, apex.at) > 0)) break;
+    emit(nodes_[d], nodes_[c], apex);
+    c = d;
+  }
+  link(c, sag);
+  c = highOnRight;
+  while (c != chain_.right) {
+    const uint32_t d = nodes_[c].next;
+    if (!(turn(apex.at, nodes_[c].at, nodes_[d].at) > 0)) break;
+    emit(apex, nodes_[c], nodes_[d]);
+    c = d;
+  }
+  link(sag, c);
+  chain_.highest = sag;
+  note(FloodAction::Bridge);
+}
+
+/// Leaves this side of a top waiting for the other one, and looks for the bottom of that.
+void Flood::spill(uint32_t top, bool left) {
+  nodes_[top].jump = left ? chain_.right : chain_.left;
+  ++spilled_;
+  const VertexKind bank = left ? VertexKind::RightBank : VertexKind::LeftBank;
+  uint32_t v = top;
+  do v = left ? nodes_[v].prev : nodes_[v].next;
+  while (nodes_[v].kind == bank);
+  if (nodes_[v].kind == VertexKind::Bottom) spilledTo_ = v;
+  note(FloodAction::Spill);
+}
+
+uint32_t Flood::copyOf(uint32_t v) {
+  const uint32_t copy = uint32_t(used_++);
+  nodes_[copy] = nodes_[v];
+  nodes_[copy].sag = nodes_[copy].jump = kNone;
+  return copy;
+}
+
+void Flood::note(FloodAction action) {
+  if (!trace_) return;
+  trace_->push_back({uint32_t(action), nodes_[chain_.left].vertex, nodes_[chain_.right].vertex,
+                     uint32_t(out_ - outBegin_) / 3});
+}
+
+}  // namespace sf

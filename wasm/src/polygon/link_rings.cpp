@@ -1,0 +1,209 @@
+#include "polygon/link_rings.h"
+
+#include <cmath>
+
+#include "polygon/turn.h"
+
+namespace sf {
+namespace {
+
+constexpr double kLargest = 1e150;
+
+/// Magnitudes along one axis.
+struct Extent {
+  double largest = 0;
+  bool finite = true;
+
+  void add(double x) {
+    const double a = std::fabs(x);
+    finite &= a <= kLargest;  // false for NaN
+    largest = a > largest ? a : largest;
+  }
+  /// The power of two by which to scale, so that predicates neither over- nor underflow; 1 for
+  /// everything but extreme numbers.
+  double scale() const {
+    if (largest == 0 || (largest > 0x1p-200 && largest < 0x1p200)) return 1;
+    int exponent;
+    std::frexp(largest, &exponent);
+    return std::ldexp(1.0, -exponent);
+  }
+};
+
+Outcome checkStarts(const PolygonView& polygon) {
+  const ArrayView<const uint32_t> starts = polygon.starts;
+  Outcome bad;
+  bad.status = Status::BadStarts;
+  if (starts.size() < 2 || starts[0] != 0) return bad;
+  for (uint32_t c = 0; c + 1 < starts.size(); ++c) {
+    bad.loop = c;
+    if (starts[c] > starts[c + 1]) return bad;
+  }
+  bad.loop = kNone;
+  if (starts[starts.size() - 1] != polygon.positions.size() / 2) return bad;
+  return {};
+}
+
+Outcome firstNotFinite(const PolygonView& polygon) {
+  Outcome bad;
+  bad.status = Status::NotFinite;
+  const auto isBad = [](ArrayView<const double> xy, size_t i) {
+    return !(std::fabs(xy[2 * i]) <= kLargest && std::fabs(xy[2 * i + 1]) <= kLargest);
+  };
+  const uint32_t rings = uint32_t(polygon.starts.size()) - 1;
+  for (bad.loop = 0; bad.loop < rings; ++bad.loop)
+    for (uint32_t i = polygon.starts[bad.loop]; i < polygon.starts[bad.loop + 1]; ++i) {
+      bad.vertex = i - polygon.starts[bad.loop];
+      if (isBad(polygon.positions, i)) return bad;
+    }
+  for (bad.vertex = 0;; ++bad.loop)
+    if (isBad(polygon.points, bad.loop - rings)) return bad;
+}
+
+/// Copies positions and points to `at`, scaled; false if one is not finite.
+bool copyScaled(const PolygonView& polygon, std::vector<Point2>& at) {
+  const size_t n = polygon.positions.size() / 2, p = polygon.points.size() / 2;
+  at.resize(n + p);
+  Extent x, y;
+  const auto copy = [&](ArrayView<const double> xy, Point2* to) {
+    for (size_t i = 0; i < xy.size() / 2; ++i) {
+      to[i] = {xy[2 * i], xy[2 * i + 1]};
+      x.add(to[i].x), y.add(to[i].y);
+    }
+  };
+  copy(polygon.positions, at.data());
+  copy(polygon.points, at.data() + n);
+  if (!x.finite || !y.finite) return false;
+  const double sx = x.scale(), sy = y.scale();
+  if (sx != 1 || sy != 1)
+    for (Point2& q : at) q = {q.x * sx, q.y * sy};
+  return true;
+}
+
+/// One ring on its way into loops.
+class RingLinker {
+ public:
+  RingLinker(LinkedPolygon& linked, uint32_t first, uint32_t last)
+      : p_(linked), at_(linked.at.data()), first_(first), last_(last) {}
+
+  /// Whether the ring runs counter-clockwise. At its lowest point all edges leave upwards, and the
+  /// leftmost of them bounds the inside from the left: it has to lead down.
+  bool isCounterClockwise();
+  bool repeatsItself() const { return repeats_; }
+  void link(bool reversed);
+  /// The same for rings with repeated vertices; false for fewer than 3 distinct points in a row.
+  bool linkDistinct(bool reversed);
+
+ private:
+  uint32_t after(uint32_t i) const { return i == last_ ? first_ : i + 1; }
+  uint32_t before(uint32_t i) const { return i == first_ ? last_ : i - 1; }
+
+  LinkedPolygon& p_;
+  const Point2* at_;
+  const uint32_t first_, last_;
+  bool repeats_ = false;
+};
+
+bool RingLinker::isCounterClockwise() {
+  uint32_t low = first_;
+  bool repeats = at_[last_] == at_[first_];
+  for (uint32_t i = first_; i < last_; ++i) {
+    if (below(at_[i + 1], at_[low])) low = i + 1;
+    repeats |= at_[i] == at_[i + 1];
+  }
+  repeats_ = repeats;
+  const Point2 p = at_[low];
+  Point2 leftmost = p;
+  bool down = false;
+  const auto consider = [&](Point2 q, bool leadsDown) {
+    if (q == p) return;
+    if (leftmost == p || turn(p, leftmost, q) > 0) leftmost = q, down = leadsDown;
+  };
+  for (uint32_t i = low; i <= last_; ++i) {
+    if (!(at_[i] == p)) continue;
+    consider(at_[before(i)], true);
+    consider(at_[after(i)], false);
+  }
+  return down;
+}
+
+constexpr VertexKind kKinds[4] = {VertexKind::LeftBank, VertexKind::Bottom, VertexKind::Ceiling,
+                                  VertexKind::RightBank};
+
+void RingLinker::link(bool reversed) {
+  const uint32_t turned = reversed ? 3 : 0;
+  uint32_t up = below(at_[last_], at_[first_]);
+  uint32_t* before = (reversed ? p_.next : p_.prev).data();
+  uint32_t* after = (reversed ? p_.prev : p_.next).data();
+  VertexKind* kind = p_.kind.data();
+  for (uint32_t i = first_; i < last_; ++i) {
+    const uint32_t upNext = below(at_[i], at_[i + 1]);
+    // A direction that does not change turns round with the ring, one that does does not.
+    kind[i] = kKinds[up == upNext ? (2 * up + upNext) ^ turned : 2 * up + upNext];
+    before[i] = i - 1, after[i] = i + 1;
+    up = upNext;
+  }
+  const uint32_t upNext = below(at_[last_], at_[first_]);
+  kind[last_] = kKinds[up == upNext ? (2 * up + upNext) ^ turned : 2 * up + upNext];
+  before[first_] = last_;
+  before[last_] = last_ - 1, after[last_] = first_;
+}
+
+bool RingLinker::linkDistinct(bool reversed) {
+  const auto step = [&](uint32_t i) { return reversed ? before(i) : after(i); };
+  const auto back = [&](uint32_t i) { return reversed ? after(i) : before(i); };
+  uint32_t begin = first_;
+  while (at_[begin] == at_[back(begin)]) {
+    begin = step(begin);
+    if (begin == first_) return false;  // one point only
+  }
+  uint32_t count = 0, v = begin;
+  do {
+    uint32_t w = step(v);
+    while (at_[w] == at_[v]) p_.kind[w] = VertexKind::Unused, w = step(w);
+    for (uint32_t d = v; step(d) != w; d = step(d)) p_.flat.insert(p_.flat.end(), {d, step(d), w});
+    p_.next[v] = w, p_.prev[w] = v;
+    ++count;
+    v = w;
+  } while (v != begin);
+  if (count < 3) return false;
+  do {
+    const uint32_t up = below(at_[p_.prev[v]], at_[v]), upNext = below(at_[v], at_[p_.next[v]]);
+    p_.kind[v] = kKinds[2 * up + upNext];
+    v = p_.next[v];
+  } while (v != begin);
+  return true;
+}
+
+}  // namespace
+
+Outcome linkRings(const PolygonView& polygon, LinkedPolygon& linked,
+                  std::vector<uint8_t>& reversed) {
+  if (Outcome bad = checkStarts(polygon); !bad.ok()) return bad;
+  if (!copyScaled(polygon, linked.at)) return firstNotFinite(polygon);
+  const size_t n = polygon.positions.size() / 2, m = linked.at.size();
+  const uint32_t rings = uint32_t(polygon.starts.size()) - 1;
+  linked.vertex.resize(m), linked.next.resize(m), linked.prev.resize(m), linked.kind.resize(m);
+  linked.flat.clear();
+  reversed.resize(rings);
+  for (uint32_t i = 0; i < m; ++i) linked.vertex[i] = i;
+  for (uint32_t c = 0; c < rings; ++c) {
+    const uint32_t first = polygon.starts[c];
+    uint32_t size = polygon.starts[c + 1] - first;
+    if (size > 1 && linked.at[first] == linked.at[first + size - 1])
+      linked.kind[first + --size] = VertexKind::Unused;
+    Outcome bad;
+    bad.status = Status::DegeneratePolygon, bad.loop = c;
+    if (size < 3) return bad;
+    RingLinker ring(linked, first, first + size - 1);
+    reversed[c] = ring.isCounterClockwise() != (c == 0);
+    if (!ring.repeatsItself())
+      ring.link(reversed[c]);
+    else if (!ring.linkDistinct(reversed[c]))
+      return bad;
+  }
+  for (uint32_t i = uint32_t(n); i < m; ++i)
+    linked.kind[i] = VertexKind::Island, linked.next[i] = linked.prev[i] = i;
+  return {};
+}
+
+}  // namespace sf

@@ -1,0 +1,18 @@
+// From rings as they come to loops of nodes: numbers checked and scaled, rings turned the right way
+// round, repeated vertices set aside, and every node's kind as far as its two edges tell.
+// Source: Ronfard, Rossignac 1994, sec. 3.
+#pragma once
+#include "base/status.h"
+#include "polygon/polygon.h"
+
+namespace sf {
+
+/// Links the rings, one node for each vertex; touches are left as they are. Kinds: every local
+/// minimum is called Bottom, every local maximum Ceiling.
+///   reversed  [r] 1 where the loop runs through its ring backwards
+/// Errors: BadStarts, NotFinite, DegeneratePolygon (a ring of fewer than 3 distinct points). O(n)
+/// time; the vectors keep their memory.
+Outcome linkRings(const PolygonView& polygon, LinkedPolygon& linked,
+                  std::vector<uint8_t>& reversed);
+
+}  // namespace sf

@@ -1,0 +1,244 @@
+#include "polygon/sweep.h"
+
+#include <algorithm>
+
+#include "base/charge.h"
+#include "polygon/link_rings.h"
+#include "polygon/sweep_state.h"
+
+namespace sf {
+
+using State = SweepState;
+
+PlaneSweep::PlaneSweep() : state_(new SweepState) {}
+PlaneSweep::~PlaneSweep() = default;
+
+Outcome PlaneSweep::run(const PolygonView& polygon, bool sagsOnly, Work& work,
+                        LinkedPolygon& linked, Visibility& seen) {
+  State& s = *state_;
+  Charge charge(work);
+  const uint64_t n = polygon.positions.size() / 2 + polygon.points.size() / 2;
+  const uint64_t perNode = sizeof(State::Event) + 5 * sizeof(uint32_t);
+  Outcome outcome;
+  if (!charge.add(n * perNode)) {
+    outcome.status = work.status();
+    return outcome;
+  }
+  outcome = linkRings(polygon, linked, s.reversed);
+  if (!outcome.ok()) return outcome;
+  s.sagsOnly = sagsOnly;
+  if (!s.begin(polygon, linked, seen, work)) {
+    outcome.status = work.status();
+    return outcome;
+  }
+  if (!charge.add(EdgeOrder::bytes(2 * size_t(n)))) outcome.status = work.status();
+  if (outcome.ok()) s.sweep(work);
+  if (!work.going()) {
+    outcome.status = work.status();
+    return outcome;
+  }
+  return s.outcome.ok() ? s.misplaced : s.outcome;
+}
+
+bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility& visibility,
+                  Work& work) {
+  view = &polygon, loops = &linked, seen = &visibility;
+  outcome = misplaced = {};
+  const size_t m = linked.at.size();
+  events.clear();
+  events.reserve(m);
+  size_t minima = 0;
+  for (uint32_t v = 0; v < m; ++v) {
+    if (linked.kind[v] == VertexKind::Unused) continue;
+    minima += linked.kind[v] == VertexKind::Bottom;
+    events.push_back({linked.at[v], v});
+  }
+  std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
+    return below(a.at, b.at) || (a.at == b.at && a.node < b.node);
+  });
+  if (!work.tick(uint32_t(std::min<size_t>(m, 1u << 24)) * 60)) return false;
+  // Edges come into the order in pairs, at local minima alone.
+  edges.reset(2 * minima);
+  ending.resize(2 * m);
+  seen->order.clear();
+  seen->left.resize(m);
+  if (!sagsOnly) {
+    seen->order.reserve(m);
+    std::fill(seen->left.begin(), seen->left.end(), kNone);
+    seen->right.assign(m, kNone);
+  }
+  return true;
+}
+
+void State::sweep(Work& work) {
+  for (size_t i = 0; i < events.size();) {
+    const size_t end = std::min(i + 1024, events.size());
+    while (i < end) {
+      const size_t passed = step(i);
+      if (passed == 0) return;
+      i += passed;
+    }
+    if (!work.tick(60 * 1024)) return;
+  }
+  SF_ASSERT(!misplaced.ok() || edges.leftmost() == kNone);
+}
+
+size_t State::step(size_t i) {
+  const Event& event = events[i];
+  size_t count = 1;
+  while (i + count < events.size() && events[i + count].at == event.at) ++count;
+  const auto pass = [&] {
+    switch (loops->kind[event.node]) {
+      case VertexKind::LeftBank:
+        return passMonotone(event, true);
+      case VertexKind::RightBank:
+        return passMonotone(event, false);
+      case VertexKind::Bottom:
+        return passMinimum(event);
+      case VertexKind::Ceiling:
+        return passMaximum(event);
+      default:
+        return passIsland(event);
+    }
+  };
+  // Nodes that the simple cases cannot pass have something else at their point, or are in disorder.
+  if ((count == 1 && pass()) || passTouch(i, count)) return count;
+  return 0;
+}
+
+void State::set(uint32_t e, uint32_t lower, uint32_t upper, uint32_t input, bool down) {
+  CrossedEdge& edge = edges[e];
+  edge.lo = loops->at[lower], edge.hi = loops->at[upper];
+  edge.lower = lower, edge.upper = upper;
+  edge.input = input, edge.down = down;
+  ending[2 * size_t(upper) + down] = e;
+}
+
+void State::see(uint32_t v, uint32_t left, uint32_t right, bool isSag) {
+  if (!sagsOnly)
+    seen->left[v] = lowerNode(left), seen->right[v] = lowerNode(right);
+  else if (isSag)
+    seen->left[v] = lowerNode(left);
+  if (!sagsOnly || isSag || loops->kind[v] == VertexKind::Bottom) seen->order.push_back(v);
+}
+
+bool State::passMonotone(const Event& event, bool down) {
+  const uint32_t v = event.node, e = ending[2 * size_t(v) + down];
+  const uint32_t left = edges[e].left, right = edges[e].right;
+  if (left != kNone && !(side(left, event.at) < 0)) return false;
+  if (right != kNone && !(side(right, event.at) > 0)) return false;
+  if (!sagsOnly) see(v, down ? kNone : left, down ? right : kNone, false);
+  if (down)
+    set(e, v, loops->prev[v], loops->prev[v], true);
+  else
+    set(e, v, loops->next[v], v, false);
+  return true;
+}
+
+bool State::passMinimum(const Event& event) {
+  const uint32_t v = event.node, prev = loops->prev[v], next = loops->next[v];
+  uint32_t left = kNone, right = kNone;
+  for (uint32_t e = edges.root(); e != kNone;) {
+    const double s = side(e, event.at);
+    if (s == 0) return false;
+    if (s < 0)
+      left = e, e = edges[e].child[1];
+    else
+      right = e, e = edges[e].child[0];
+  }
+  const double shape = turn(event.at, loops->at[prev], loops->at[next]);
+  if (shape == 0) return false;
+  const bool concave = shape > 0;  // the link that leads up is left of the one that leads down
+  if (concave != isInside(left)) misplace(v, inputOf(left));
+  if (concave) loops->kind[v] = VertexKind::Sag;
+  see(v, concave ? left : kNone, concave ? right : kNone, concave);
+  const uint32_t a = edges.insertAfter(left), b = edges.insertAfter(a);
+  set(concave ? b : a, v, prev, prev, true);
+  set(concave ? a : b, v, next, v, false);
+  return true;
+}
+
+bool State::passMaximum(const Event& event) {
+  const uint32_t v = event.node;
+  const uint32_t up = ending[2 * size_t(v)], down = ending[2 * size_t(v) + 1];
+  const bool concave = edges[up].right == down;
+  if (!concave && edges[down].right != up) return false;
+  const uint32_t first = concave ? up : down, last = concave ? down : up;
+  const uint32_t left = edges[first].left, right = edges[last].right;
+  if (left != kNone && !(side(left, event.at) < 0)) return false;
+  if (right != kNone && !(side(right, event.at) > 0)) return false;
+  if (concave) loops->kind[v] = VertexKind::Top;
+  if (!sagsOnly) see(v, concave ? left : kNone, concave ? right : kNone, false);
+  edges.remove(first), edges.remove(last);
+  return true;
+}
+
+bool State::passIsland(const Event& event) {
+  uint32_t left = kNone, right = kNone;
+  for (uint32_t e = edges.root(); e != kNone;) {
+    const double s = side(e, event.at);
+    if (s == 0) return false;
+    if (s < 0)
+      left = e, e = edges[e].child[1];
+    else
+      right = e, e = edges[e].child[0];
+  }
+  if (!isInside(left)) misplace(event.node, inputOf(left));
+  see(event.node, left, right, true);
+  return true;
+}
+
+uint32_t State::ringOf(uint32_t vertex) const {
+  const ArrayView<const uint32_t> starts = view->starts;
+  const uint32_t rings = uint32_t(starts.size()) - 1;
+  if (vertex >= starts[rings]) return rings + (vertex - starts[rings]);  // an isolated point
+  return uint32_t(std::upper_bound(starts.begin(), starts.end(), vertex) - starts.begin()) - 1;
+}
+
+/// The next vertex along the ring as it comes, or backwards, that does not repeat another.
+uint32_t State::step(uint32_t v, bool backwards) const {
+  const uint32_t ring = ringOf(v), first = view->starts[ring], last = view->starts[ring + 1] - 1;
+  do {
+    if (backwards)
+      v = v == first ? last : v - 1;
+    else
+      v = v == last ? first : v + 1;
+  } while (loops->kind[v] == VertexKind::Unused);
+  return v;
+}
+
+/// The first vertex, as the ring comes, of the edge that starts at `input` along the oriented loop.
+uint32_t State::inputEdge(uint32_t input) const {
+  return reversed[ringOf(input)] ? step(input, true) : input;
+}
+
+/// Records that two edges meet as they must not. Always false.
+bool State::crossing(uint32_t inputA, uint32_t inputB) {
+  uint32_t a = inputEdge(inputA), b = inputEdge(inputB);
+  if (a > b) std::swap(a, b);
+  uint32_t ringA = ringOf(a), ringB = ringOf(b);
+  outcome.status = Status::HolesOverlap;
+  if (ringA == ringB) outcome.status = Status::SelfIntersecting;
+  if (ringA == 0 && ringB != 0) {
+    outcome.status = Status::HoleOutside;
+    std::swap(a, b), std::swap(ringA, ringB);
+  }
+  outcome.loop = ringA, outcome.vertex = a - view->starts[ringA];
+  outcome.otherLoop = ringB, outcome.otherVertex = b - view->starts[ringB];
+  return false;
+}
+
+/// Records that the loop at vertex `input` is not where the polygon needs it, beside the edge from
+/// `besideInput`, or left of everything.
+void State::misplace(uint32_t input, uint32_t besideInput) {
+  if (!misplaced.ok()) return;
+  uint32_t ring = ringOf(input), around = besideInput == kNone ? 0 : ringOf(besideInput);
+  if (ring == 0) std::swap(ring, around);
+  const bool isPoint = ring + 1 >= view->starts.size();
+  const bool nested = around != 0 && around != ring && !isPoint;
+  misplaced.status = nested ? Status::NestedHole : Status::HoleOutside;
+  misplaced.loop = ring;
+  if (nested) misplaced.otherLoop = around;
+}
+
+}  // namespace sf

@@ -1,0 +1,83 @@
+// The state of one plane sweep; private to sweep.cpp and touch.cpp.
+#pragma once
+#include <vector>
+
+#include "polygon/edge_order.h"
+#include "polygon/sweep.h"
+#include "polygon/turn.h"
+
+namespace sf {
+
+struct SweepState {
+  /// A node that the sweep line will pass.
+  struct Event {
+    Point2 at;
+    uint32_t node;
+  };
+  /// One of the edges at a point where loops touch: `other` is the node at its other end, `node`
+  /// the one at the point. `down`: it leads from the upper to the lower end.
+  struct HalfEdge {
+    uint32_t node, other;
+    Point2 to;
+    uint32_t input;
+    bool down;
+  };
+
+  // Kept from polygon to polygon.
+  EdgeOrder edges;
+  std::vector<Event> events;
+  std::vector<uint32_t> ending;  // [2m] the record of the edge that ends at node v from below: 2v
+                                 // for one that leads up, 2v+1 for one that leads down
+  std::vector<uint8_t> reversed;
+  std::vector<HalfEdge> lower, upper;
+  std::vector<uint32_t> strands;
+
+  // Of this polygon.
+  const PolygonView* view = nullptr;
+  LinkedPolygon* loops = nullptr;
+  Visibility* seen = nullptr;
+  bool sagsOnly = false;
+  Outcome outcome;    // the first crossing
+  Outcome misplaced;  // the first sign of a hole in the wrong place, which a crossing may explain
+
+  bool begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility& visibility, Work& work);
+  void sweep(Work& work);
+  /// Handles event i, with those after it that are at the same point; returns how many, 0 after a
+  /// crossing.
+  size_t step(size_t i);
+  bool passMonotone(const Event& event, bool down);
+  bool passMinimum(const Event& event);
+  bool passMaximum(const Event& event);
+  bool passIsland(const Event& event);
+
+  // touch.cpp: points with several nodes, or on an edge.
+  bool passTouch(size_t i, size_t count);
+  bool findBlock(size_t i, size_t count, uint32_t& first, uint32_t& last, uint32_t& left);
+  void divide(uint32_t e, uint32_t vertex, Point2 at);
+  bool collect(size_t i, size_t count, uint32_t first, uint32_t last, Point2 at);
+  bool overlap(const HalfEdge& a, const HalfEdge& b);
+  bool strandsPart();
+  bool alternate(uint32_t left);
+  void relink(uint32_t left, uint32_t right);
+  void corner(VertexKind kind, const HalfEdge& in, HalfEdge& out, uint32_t left, uint32_t right);
+  void replaceBlock(uint32_t first, uint32_t last, uint32_t left);
+  bool reportDisorder(Point2 at);
+
+  /// Where p is: positive to the left of edge e, negative to the right, 0 on it.
+  double side(uint32_t e, Point2 p) const { return turn(edges[e].lo, edges[e].hi, p); }
+  void set(uint32_t e, uint32_t lower, uint32_t upper, uint32_t input, bool down);
+  bool isInside(uint32_t left) const { return left != kNone && edges[left].down; }
+  uint32_t lowerNode(uint32_t e) const { return e == kNone ? kNone : edges[e].lower; }
+  void see(uint32_t v, uint32_t left, uint32_t right, bool isSag);
+  uint32_t newNode(uint32_t vertex, Point2 at);
+
+  uint32_t ringOf(uint32_t vertex) const;
+  uint32_t inputOf(uint32_t e) const { return e == kNone ? kNone : uint32_t(edges[e].input); }
+  uint32_t step(uint32_t v, bool backwards) const;
+  uint32_t successor(uint32_t v) const { return step(v, reversed[ringOf(v)]); }
+  uint32_t inputEdge(uint32_t input) const;
+  bool crossing(uint32_t inputA, uint32_t inputB);
+  void misplace(uint32_t input, uint32_t besideInput);
+};
+
+}  // namespace sf
