@@ -1,55 +1,85 @@
-// Times spanLoops of the built package on the cases of cases.csv, as span.cpp does natively.
+// Times spanLoops of the built package on one curve file and prints what it found as one line of JSON.
+// A process a case, so that memory and the engine's compilation are the case's own.
+//   node span.bench.mjs '{ "curves": file, "space", "objective", "weights": [3] or null, "bestSoFar": limits or null }'
 import { readFileSync } from 'node:fs';
 import { load, parseLoops, spanLoops } from 'soapfilm';
 
-const kLeastRuns = 5;
+// The same in span.cpp.
+const kSecondsPerCase = 1;
+const kDear = 3;
+const kVeryDear = 8;
+const kLeastRuns = 3;
 const kMostRuns = 50;
-const kSecondsPerCase = 2;
 
-const read = (name) => readFileSync(new URL(name, import.meta.url), 'utf8');
+const kNothing = { cost: 0, lowerBound: 0, optimal: false, triangles: [] };
 
-// FNV-1a of the triangles and of the cost to nine digits: the native program prints the same.
-function checksum(span) {
+/** Runs until the median is worth something; dear cases fewer times, very dear ones once. */
+function isEnough([first, ...warm]) {
+  if (first > kVeryDear) return true;
+  if (first > kDear) return warm.length >= 1;
+  const spent = warm.reduce((sum, s) => sum + s, 0);
+  return warm.length >= kMostRuns || (warm.length >= kLeastRuns && spent >= kSecondsPerCase);
+}
+
+/** FNV-1a of the triangles. */
+function checksum(triangles) {
   let hash = 2166136261;
-  const add = (value) => {
+  for (const v of triangles) {
     for (let shift = 0; shift < 32; shift += 8) {
-      hash = Math.imul(hash ^ ((value >>> shift) & 255), 16777619);
+      hash = Math.imul(hash ^ ((v >>> shift) & 255), 16777619);
     }
-  };
-  span.triangles.forEach(add);
-  for (const digit of String(Number(span.cost.toPrecision(9)))) add(digit.charCodeAt(0));
+  }
   return (hash >>> 0).toString(16).padStart(8, '0');
 }
 
-function measure(title) {
-  const [curves, candidates, area, perimeter, dihedral, objective] = title.split(',');
-  const loops = parseLoops(read(`../fixtures/curves/${curves}.curve`));
-  const weights = { area: Number(area), perimeter: Number(perimeter), dihedral: Number(dihedral) };
-  const times = [];
-  let spent = 0;
-  let span;
-  while (times.length < kLeastRuns || (spent < kSecondsPerCase && times.length < kMostRuns)) {
-    const start = performance.now();
-    span = spanLoops(loops, { candidates, weights, objective });
-    times.push(performance.now() - start);
-    spent += times.at(-1) / 1000;
-  }
-  times.sort((a, b) => a - b);
-  const at = (share) => times[Math.floor(times.length * share)];
-  const spread = (100 * (at(0.75) - at(0.25))) / at(0.5);
-  const columns = [
-    title.padEnd(42),
-    `${at(0.5).toFixed(2).padStart(10)} ms`,
-    `±${spread.toFixed(0).padStart(3)} %`,
-    `${(span.stats.peakBytes / 1e6).toFixed(1).padStart(8)} MB`,
-    span.found ? `cost ${String(Number(span.cost.toPrecision(9))).padEnd(12)} ${checksum(span)}` : span.reason,
-  ];
-  console.log(columns.join('  '));
+/** Watches the memory of the core's instances, which the package does not show: `peak()` bytes so far. */
+function watchMemory() {
+  const { Instance, instantiate } = WebAssembly;
+  let memory;
+  let peak = 0;
+  const look = () => (peak = Math.max(peak, memory?.buffer.byteLength ?? 0));
+  const keep = (instance) => {
+    look();
+    memory = instance.exports.memory;
+    return instance;
+  };
+  WebAssembly.Instance = function (...given) {
+    return keep(new Instance(...given));
+  };
+  WebAssembly.instantiate = async (...given) => keep(await instantiate(...given));
+  return { peak: look };
 }
 
+const memory = watchMemory();
 await load();
-const word = process.argv[2] ?? '';
-const lines = read('cases.csv').split('\n');
-for (const line of lines) {
-  if (/^\w+,\w+,\d/.test(line) && line.includes(word)) measure(line);
-}
+const { curves, space, objective, weights, bestSoFar } = JSON.parse(process.argv[2]);
+const loops = parseLoops(readFileSync(curves));
+const options = { candidates: space, objective };
+if (weights) options.weights = { area: weights[0], perimeter: weights[1], dihedral: weights[2] };
+if (bestSoFar) Object.assign(options, bestSoFar, { bestSoFar: true });
+const seconds = [];
+let span;
+do {
+  const start = performance.now();
+  span = spanLoops(loops, options);
+  seconds.push((performance.now() - start) / 1000);
+  memory.peak();
+} while (!isEnough(seconds));
+const { cost, lowerBound, optimal, triangles } = span.found ? span : kNothing;
+const { candidates, domains, minimalSets, peakBytes } = span.stats;
+console.log(
+  JSON.stringify({
+    seconds,
+    peakBytes,
+    processBytes: memory.peak(),
+    found: span.found,
+    optimal,
+    cost,
+    lowerBound,
+    candidates,
+    domains,
+    minimalSets,
+    space: span.candidates,
+    hash: checksum(triangles),
+  }),
+);

@@ -1,12 +1,14 @@
-// Times sf::spanLoops on the cases of cases.csv: median and spread of repeated runs, the solver's
-// peak memory, and a checksum that changes when an answer does.
-//   soapfilm_bench [word]   only the cases whose line holds the word
+// Times sf::spanLoops on one curve file and prints what it found as one line of JSON. A process a
+// case, so that peak memory is the case's own; span.bench.mjs does the same through the package.
+//   soapfilm_bench file space objective area perimeter dihedral
+// The weights are numbers; `nan` for the area weight is the default one.
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
+#include <cstdlib>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -15,83 +17,123 @@
 
 namespace {
 
-constexpr int kLeastRuns = 5, kMostRuns = 50;
-constexpr double kSecondsPerCase = 2;
+using Clock = std::chrono::steady_clock;
 
-struct Case {
-  std::string title;
-  sf::LoopSet loops;
-  sf::SpanOptions options;
+// The same in span.bench.mjs.
+constexpr double kSecondsPerCase = 1, kDear = 3, kVeryDear = 8;
+constexpr size_t kLeastRuns = 3, kMostRuns = 50;
+
+struct Measured {
+  std::vector<double> seconds;  // of each run, the first one first
+  sf::Span span;
+  size_t peak = 0;         // bytes that the solver held at once
+  size_t processPeak = 0;  // bytes by which the process grew
+  bool failed = false;
 };
 
-bool readCase(const std::string& line, Case& result) {
-  std::vector<std::string> cells;
-  std::stringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  if (cells.size() != 6 || cells[0] == "curves") return false;
-  result.loops = sftest::loopSet(sftest::readCurves(SF_FIXTURES "/curves/" + cells[0] + ".curve"));
-  result.options.space = cells[1] == "all" ? sf::Space::All : sf::Space::Delaunay;
-  result.options.areaWeight = std::stod(cells[2]);
-  result.options.perimeterWeight = std::stod(cells[3]);
-  result.options.dihedralWeight = std::stod(cells[4]);
-  result.options.objective = cells[5] == "sum" ? sf::Objective::Sum : sf::Objective::WorstDihedral;
-  result.title = line;
-  return true;
+/// Largest resident size so far, in bytes.
+size_t residentPeak() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+#ifdef __APPLE__
+  return size_t(usage.ru_maxrss);
+#else
+  return size_t(usage.ru_maxrss) * 1024;
+#endif
 }
 
-/// FNV-1a of the triangles and of the cost to nine digits.
-uint32_t checksum(const sf::Span& span) {
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Runs until the median is worth something; dear cases fewer times, very dear ones once.
+bool isEnough(const std::vector<double>& seconds) {
+  const double first = seconds.front();
+  const size_t warm = seconds.size() - 1;
+  if (first > kVeryDear) return true;
+  if (first > kDear) return warm >= 1;
+  double spent = 0;
+  for (const double s : seconds) spent += s;
+  return warm >= kMostRuns || (warm >= kLeastRuns && spent - first >= kSecondsPerCase);
+}
+
+Measured measure(const sf::LoopSet& loops, const sf::SpanOptions& options) {
+  Measured result;
+  const size_t before = residentPeak();
+  do {
+    sf::Work work(size_t(3) << 30, nullptr, nullptr);
+    result.span = {};
+    const Clock::time_point start = Clock::now();
+    result.failed = !sf::spanLoops(loops, options, work, result.span).ok();
+    result.seconds.push_back(secondsSince(start));
+    result.peak = work.peak();
+  } while (!result.failed && !isEnough(result.seconds));
+  result.processPeak = residentPeak() - before;
+  return result;
+}
+
+/// FNV-1a of the triangles.
+uint32_t checksum(const std::vector<uint32_t>& triangles) {
   uint32_t hash = 2166136261u;
-  auto add = [&hash](uint32_t value) {
-    for (int shift = 0; shift < 32; shift += 8)
-      hash = (hash ^ ((value >> shift) & 255)) * 16777619u;
-  };
-  for (uint32_t v : span.triangles) add(v);
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.9g", span.cost);
-  for (const char* c = digits; *c; ++c) add(uint32_t(*c));
+  for (const uint32_t v : triangles)
+    for (int shift = 0; shift < 32; shift += 8) hash = (hash ^ ((v >> shift) & 255)) * 16777619u;
   return hash;
 }
 
-/// Runs a case until its times are steady enough; false if the solver fails.
-bool measure(const Case& c) {
-  using Clock = std::chrono::steady_clock;
-  std::vector<double> times;
-  sf::Span span;
-  size_t peak = 0;
-  double spent = 0;
-  while (int(times.size()) < kLeastRuns ||
-         (spent < kSecondsPerCase && int(times.size()) < kMostRuns)) {
-    sf::Work work(size_t(3) << 30, nullptr, nullptr);
-    span = {};
-    const Clock::time_point start = Clock::now();
-    if (!sf::spanLoops(c.loops, c.options, work, span).ok()) return false;
-    times.push_back(std::chrono::duration<double>(Clock::now() - start).count());
-    spent += times.back();
-    peak = work.peak();
-  }
-  std::sort(times.begin(), times.end());
-  const double median = times[times.size() / 2];
-  const double spread = (times[times.size() * 3 / 4] - times[times.size() / 4]) / median;
-  std::printf("%-42s %10.2f ms  ±%3.0f %%  %8.1f MB  cost %-12.9g %08x\n", c.title.c_str(),
-              1e3 * median, 100 * spread, double(peak) / 1e6, span.cost, checksum(span));
-  std::fflush(stdout);
+void print(const Measured& m) {
+  const sf::Span& span = m.span;
+  std::printf("{\"seconds\":[");
+  for (size_t i = 0; i < m.seconds.size(); ++i)
+    std::printf("%s%.9g", i > 0 ? "," : "", m.seconds[i]);
+  std::printf("],\"peakBytes\":%zu,\"processBytes\":%zu,\"found\":%s,\"optimal\":%s", m.peak,
+              m.processPeak, span.found ? "true" : "false", span.optimal ? "true" : "false");
+  std::printf(",\"cost\":%.17g,\"lowerBound\":%.17g", span.cost, span.lowerBound);
+  std::printf(",\"candidates\":%llu,\"domains\":%llu,\"minimalSets\":%llu",
+              (unsigned long long)span.candidates, (unsigned long long)span.domains,
+              (unsigned long long)span.minimalSets);
+  std::printf(",\"space\":\"%s\",\"hash\":\"%08x\"}\n",
+              std::vector<const char*>{"auto", "all", "delaunay", "near", "given"}[int(span.space)],
+              checksum(span.triangles));
+}
+
+bool readOptions(char** words, sf::SpanOptions& options) {
+  const std::string space = words[0];
+  if (space == "auto")
+    options.space = sf::Space::Auto;
+  else if (space == "all")
+    options.space = sf::Space::All;
+  else if (space == "delaunay")
+    options.space = sf::Space::Delaunay;
+  else if (space == "near")
+    options.space = sf::Space::Near;
+  else
+    return false;
+  const bool worst = std::strcmp(words[1], "worst-dihedral") == 0;
+  options.objective = worst ? sf::Objective::WorstDihedral : sf::Objective::Sum;
+  options.areaWeight = std::strtod(words[2], nullptr);
+  options.perimeterWeight = std::strtod(words[3], nullptr);
+  options.dihedralWeight = std::strtod(words[4], nullptr);
   return true;
 }
 
 }  // namespace
 
 int main(int count, char** words) {
-  std::ifstream file(SF_BENCH "/cases.csv");
-  bool allRan = true, anyRan = false;
-  for (std::string line; std::getline(file, line);) {
-    Case c;
-    if (line.empty() || line[0] == '#' || !readCase(line, c)) continue;
-    if (count > 1 && line.find(words[1]) == std::string::npos) continue;
-    anyRan = true;
-    if (measure(c)) continue;
-    std::printf("%s FAILED\n", line.c_str());
-    allRan = false;
+  sf::SpanOptions options;
+  if (count != 7 || !readOptions(words + 2, options)) {
+    std::fprintf(stderr, "soapfilm_bench file space objective area perimeter dihedral\n");
+    return 2;
   }
-  return allRan && anyRan ? 0 : 1;
+  const sftest::Curves curves = sftest::readCurves(words[1]);
+  if (curves.empty()) {
+    std::fprintf(stderr, "%s cannot be read\n", words[1]);
+    return 2;
+  }
+  const Measured measured = measure(sftest::loopSet(curves), options);
+  if (measured.failed) {
+    std::fprintf(stderr, "the solver failed\n");
+    return 1;
+  }
+  print(measured);
+  return 0;
 }

@@ -1,29 +1,184 @@
-// npm run bench [-- filter]: the native benchmark program and those of the packaged core in Node.
-// Both print median, spread and a checksum for each case of tests/bench.
-import { existsSync } from 'node:fs';
+// npm run bench [-- filter… | --figures | --draw]: measures the cases of tests/bench, natively and in
+// WebAssembly in the same run, and writes the results as JSON into the build tree.
+//   filter     only the cases whose name holds all these words
+//   --figures  all cases and the optimality suite; then draws the figures and the README's table anew
+//   --draw     draws them from the last results
+import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { availableParallelism, loadavg } from 'node:os';
 import path from 'node:path';
+import { pathToFileURL } from 'node:url';
+import {
+  disagreement,
+  dragLines,
+  fitLines,
+  fitSeries,
+  goalLines,
+  kHeading,
+  optimalityLines,
+  readmeTable,
+  row,
+  summary,
+} from '../../tests/bench/report.mjs';
 import { buildLibrary, buildPreset } from './build.mjs';
 import { Failure, buildRoot, main, root, run, say } from './run.mjs';
-import { listFiles } from './stamp.mjs';
 import { checkNode, ensureTools } from './tools.mjs';
+
+const bench = path.join(root, 'tests/bench');
+const figures = path.join(bench, 'figures');
+const folder = path.join(buildRoot, 'bench');
+const results = path.join(folder, 'results.json');
+/** A run of one side of a case that takes longer is given up. */
+const kMostSeconds = 60;
+
+/** tests/bench/cases.ts as a module that this Node can run, and its inputs as curve files. */
+async function prepare() {
+  const { build } = await import('esbuild');
+  const outfile = path.join(folder, 'cases.mjs');
+  await build({
+    entryPoints: [path.join(bench, 'cases.ts')],
+    bundle: true,
+    platform: 'node',
+    format: 'esm',
+    packages: 'external',
+    outfile,
+    logLevel: 'warning',
+  });
+  return import(pathToFileURL(outfile).href);
+}
+
+/** Writes loops as a curve file, every digit kept; returns where. */
+function writeCurves(name, loops) {
+  const file = path.join(folder, 'curves', `${name}.curve`);
+  const lines = [loops.length, loops.flat().length];
+  for (const loop of loops) lines.push(loop.length, ...loop.map((point) => point.join(' ')));
+  mkdirSync(path.dirname(file), { recursive: true });
+  writeFileSync(file, `${lines.join('\n')}\n`);
+  return file;
+}
+
+/** The one line of JSON that a measuring program prints, or what went wrong. */
+async function measured(program, args) {
+  const { code, output } = await run(program, args, {
+    capture: true,
+    allowFailure: true,
+    seconds: kMostSeconds,
+  });
+  if (code === 0) return summary(JSON.parse(output));
+  if (code === 137) return { problem: `> ${kMostSeconds} s` };
+  say(output.trimEnd());
+  return { problem: 'FAILED' };
+}
+
+async function measureCase(c) {
+  const { loops, ...facts } = c;
+  const curves = loops ? writeCurves(c.curves, loops) : path.join(root, 'tests', c.curves);
+  const { space, objective, weights, bestSoFar = null } = c;
+  const native = path.join(buildRoot, 'native-release/soapfilm_bench');
+  const numbers = (weights ?? [NaN, 0, 1]).map(String);
+  const question = JSON.stringify({ curves, space, objective, weights, bestSoFar });
+  return {
+    ...facts,
+    native: bestSoFar ? null : await measured(native, [curves, space, objective, ...numbers]),
+    wasm: await measured(process.execPath, [path.join(bench, 'span.bench.mjs'), question]),
+  };
+}
+
+async function measureDrag(loops) {
+  const args = [path.join(bench, 'drag.bench.mjs'), writeCurves('drag', loops)];
+  return JSON.parse((await run(process.execPath, args, { capture: true })).output);
+}
+
+/** Costs, not times: a process for each processor. */
+async function measureOptimality(loopSets, name) {
+  const files = loopSets.map((loops, i) => writeCurves(`${name}_${i}`, loops));
+  const count = availableParallelism();
+  const shares = Array.from({ length: count }, (_, part) => files.filter((_, i) => i % count === part));
+  const program = path.join(bench, 'optimality.bench.mjs');
+  const runs = shares.map((share) => run(process.execPath, [program, ...share], { capture: true }));
+  return (await Promise.all(runs)).flatMap(({ output }) => JSON.parse(output));
+}
+
+function print(title, lines) {
+  if (lines.length > 0) say(`\n${title ? `${title}\n` : ''}${lines.join('\n')}`);
+}
+
+async function measure(words, wantsAll) {
+  const wanted = (name) => words.every((word) => name.includes(word));
+  await buildPreset('native-release');
+  await buildLibrary();
+  mkdirSync(folder, { recursive: true });
+  const { allCases, dragLoops, optimalityLoops, pictureLoops } = await prepare();
+  const found = { node: process.versions.node, processors: availableParallelism(), load: [loadavg()[0]] };
+  found.cases = [];
+  const chosen = allCases().filter((c) => wanted(c.id));
+  if (chosen.length > 0) say(kHeading);
+  for (const c of chosen) {
+    found.cases.push(await measureCase(c));
+    say(row(found.cases.at(-1)));
+  }
+  found.fits = fitSeries(found.cases);
+  print('', found.fits.length > 0 ? fitLines(found.fits) : []);
+  print('', goalLines(found.cases));
+  if (wanted('drag 2x40 delaunay')) {
+    found.drag = await measureDrag(dragLoops());
+    print('', dragLines(found.drag));
+  }
+  if (wantsAll || (words.length > 0 && wanted('optimality'))) {
+    found.optimality = {};
+    for (const kind of ['single', 'pairs']) {
+      found.optimality[kind] = await measureOptimality(optimalityLoops(kind, 100), `optimality_${kind}`);
+    }
+    print('', optimalityLines(found.optimality));
+  }
+  found.pictures = pictureLoops().map((loops, i) => writeCurves(`picture_${i}`, loops));
+  found.load.push(loadavg()[0]);
+  writeFileSync(results, `${JSON.stringify(found, null, 1)}\n`);
+  say(`\nLoad ${found.load.map((l) => l.toFixed(1)).join(' to ')} on ${found.processors} processors, Node ${found.node}. Written: ${path.relative(root, results)}`);
+  if (chosen.length === 0 && !found.drag && !found.optimality) throw new Failure('No case has that name.');
+  const failed = found.cases.filter((c) => disagreement(c) || [c.native, c.wasm].some((s) => s?.problem === 'FAILED'));
+  if (failed.length > 0) throw new Failure(`Failed or not alike: ${failed.map((c) => c.id).join(', ')}`);
+}
+
+/** The figures as SVG and PNG, and the README's table. */
+async function draw() {
+  if (!existsSync(results)) throw new Failure('There are no results to draw: npm run bench -- --figures');
+  const found = JSON.parse(readFileSync(results, 'utf8'));
+  if (!found.optimality) throw new Failure('The last run left cases out: npm run bench -- --figures');
+  mkdirSync(figures, { recursive: true });
+  await run(process.execPath, [path.join(bench, 'figures.mjs'), results, figures]);
+  await takePictures();
+  const readme = path.join(root, 'README.md');
+  const marks = /(<!-- npm run bench -- --figures -->\n)[\s\S]*?(\n<!-- end -->)/;
+  const text = readFileSync(readme, 'utf8');
+  if (!marks.test(text)) throw new Failure('README.md has lost the marks around its table of figures');
+  writeFileSync(readme, text.replace(marks, (_, begin, end) => begin + readmeTable(found) + end));
+  say(`Written: ${path.relative(root, figures)}, README.md`);
+}
+
+async function takePictures() {
+  const { paths } = await ensureTools(['chromium']);
+  const { chromium } = await import('@playwright/test');
+  const browser = await chromium.launch({
+    executablePath: paths.chromium,
+    args: process.getuid?.() === 0 ? ['--no-sandbox'] : [],
+  });
+  try {
+    const page = await browser.newPage({ deviceScaleFactor: 2, colorScheme: 'light' });
+    for (const name of readdirSync(figures).filter((file) => file.endsWith('.svg'))) {
+      const svg = readFileSync(path.join(figures, name), 'utf8');
+      await page.setContent(`<body style="margin:0">${svg}</body>`);
+      await page.locator('svg').screenshot({ path: path.join(figures, name.replace('.svg', '.png')) });
+    }
+  } finally {
+    await browser.close();
+  }
+}
 
 await main(async () => {
   checkNode();
   await ensureTools(['emcc', 'cmake', 'ninja', 'compiler']);
-  const filter = process.argv.slice(2);
-  let ran = 0;
-  await buildPreset('native-release');
-  const native = path.join(buildRoot, 'native-release/soapfilm_bench');
-  if (existsSync(native)) {
-    say('Native:');
-    await run(native, filter);
-    ran += 1;
-  }
-  await buildLibrary();
-  for (const file of listFiles(['tests/bench'], (name) => name.endsWith('.bench.mjs'))) {
-    say(`WebAssembly in Node ${process.versions.node}, ${path.basename(file)}:`);
-    await run(process.execPath, [path.join(root, file), ...filter]);
-    ran += 1;
-  }
-  if (ran === 0) throw new Failure('tests/bench holds no benchmark');
+  const words = process.argv.slice(2);
+  const wants = (flag) => words.includes(flag);
+  if (!wants('--draw')) await measure(words.filter((word) => !word.startsWith('--')), wants('--figures'));
+  if (wants('--draw') || wants('--figures')) await draw();
 });

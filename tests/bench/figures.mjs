@@ -1,0 +1,143 @@
+// Draws figures 7 to 9 of the paper anew from the benchmark's results.
+//   node figures.mjs results.json folder
+import { readFileSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { load, parseLoops, spanLoops } from 'soapfilm';
+import { count, drawing, histogram, legend, logLog, surface, text } from './plot.mjs';
+import { fitPower, optimality } from './report.mjs';
+
+const results = JSON.parse(readFileSync(process.argv[2], 'utf8'));
+const folder = process.argv[3];
+
+const inkOf = (k) => `k${k}`;
+
+function timeTick(seconds) {
+  if (seconds >= 1) return `${seconds} s`;
+  if (seconds >= 0.999e-3) return `${+(1000 * seconds).toPrecision(2)} ms`;
+  return `${+(1e6 * seconds).toPrecision(2)} µs`;
+}
+const memoryTick = (bytes) => (bytes >= 0.999e6 ? `${+(bytes / 1e6).toPrecision(2)} MB` : `${+(bytes / 1e3).toPrecision(2)} kB`);
+
+const measured = (series) => results.cases.filter((c) => c.series === series && c.wasm?.median);
+const authors = (k, space) =>
+  results.cases.filter((c) => c.authors && c.k === k && c.space === space && c.weights[2] === 1);
+
+/** The marks of one series for one quantity: ours in WebAssembly, ours natively, the authors'. */
+function curves({ series, ink, label, k, space }, value, authorsValue) {
+  const cases = measured(series);
+  const points = cases.map((c) => [c.n, value(c.wasm)]).filter(([, v]) => v > 0);
+  const native = cases.filter((c) => c.native?.median).map((c) => [c.n, value(c.native)]);
+  const isWork = cases.filter((c) => c.wasm.median >= 0.5e-3).map((c) => [c.n, value(c.wasm)]);
+  const exponent = fitPower(isWork)?.exponent;
+  const ours = { points, ink, mark: 'line', label: { text: label, exponent } };
+  const parts = [{ points: native, ink, mark: 'dotted' }, ours];
+  if (authorsValue && k) parts.push({ points: authors(k, space).map((c) => [c.n, authorsValue(c.authors)]), ink, mark: 'diamond' });
+  return parts;
+}
+
+const kTime = [(s) => s.median, (a) => a.seconds];
+const kMemory = [(s) => s.peakBytes, (a) => 1e6 * a.megabytes];
+
+const kLegend = [
+  { ink: 'k1', mark: 'line', text: 'soapfilm in WebAssembly' },
+  { ink: 'k1', mark: 'dotted', text: 'soapfilm, native' },
+  { ink: 'k1', mark: 'diamond', text: "the paper authors' program, native" },
+];
+
+function pictures() {
+  return results.pictures.map((file) => {
+    const span = spanLoops(parseLoops(readFileSync(file)), { candidates: 'delaunay', weights: { dihedral: 1 } });
+    if (!span.found) throw new Error(`${file}: no surface to show`);
+    return span;
+  });
+}
+
+function figure7(shown) {
+  const all = [
+    { series: 'monkey 1 all dihedral', ink: 'k2', label: '', k: 1, space: 'all' },
+    { series: 'monkey 1 all area', ink: 'k4', label: '' },
+  ];
+  const sparse = [{ series: 'monkey 1 delaunay dihedral', ink: 'k2', label: '', k: 1, space: 'delaunay' }];
+  const panel = (at, title, list, [value, theirs], format) =>
+    logLog({ ...at, width: 330, height: 250, title, xLabel: 'vertices', format, series: list.flatMap((s) => curves(s, value, theirs)) });
+  return drawing(920, 610, 'One curve: a monkey saddle of n vertices (figure 7)', [
+    legend(20, 56, kLegend),
+    surface(shown[0], { x: 24, y: 150, size: 180, from: [0.9, -1.5, 1.1] }),
+    text(114, 372, '48 vertices, least dihedral sum', 'm'),
+    legend(40, 410, [{ ink: 'k2', mark: 'line', text: 'dihedral' }]),
+    legend(40, 430, [{ ink: 'k4', mark: 'line', text: 'area' }]),
+    panel({ x: 230, y: 80 }, 'All triples: time', all, kTime, timeTick),
+    panel({ x: 575, y: 80 }, 'All triples: memory', all, kMemory, memoryTick),
+    panel({ x: 230, y: 345 }, 'Delaunay facets: time', sparse, kTime, timeTick),
+    panel({ x: 575, y: 345 }, 'Delaunay facets: memory', sparse, kMemory, memoryTick),
+  ]);
+}
+
+function figure8(shown) {
+  const listed = (space, numbers) =>
+    numbers.map((k) => ({ series: `saddles ${k} ${space} dihedral`, ink: inkOf(k), label: '', k, space }));
+  const row = (y, title, list) => {
+    const at = (column) => ({ x: 14 + 326 * column, y, width: 326, height: 250, xLabel: 'vertices of all curves' });
+    const of = (value, theirs) => list.flatMap((s) => curves(s, value, theirs));
+    const counts = list.flatMap(({ series, ink }) => [
+      { points: measured(series).map((c) => [c.n, c.wasm.domains]), ink, mark: 'line' },
+      { points: measured(series).map((c) => [c.n, c.wasm.minimalSets]).filter(([, v]) => v > 0), ink, mark: 'dotted' },
+    ]);
+    return [
+      logLog({ ...at(0), title: `${title}: time`, format: timeTick, series: of(...kTime) }),
+      logLog({ ...at(1), title: `${title}: memory`, format: memoryTick, series: of(...kMemory) }),
+      logLog({ ...at(2), title: `${title}: domains, minimal sets (dotted)`, format: count, series: counts }),
+    ];
+  };
+  const inks = [2, 3, 4, 5, 6].map((k) => ({ ink: inkOf(k), mark: 'line', text: `${k} curves` }));
+  return drawing(1000, 800, 'Several curves: saddles at the corners of an octahedron (figure 8)', [
+    legend(20, 56, kLegend),
+    ...shown.slice(1).map((span, i) => surface(span, { x: 45 + 190 * i, y: 70, size: 150, from: [1.5, 1.1, 0.8] })),
+    legend(200, 250, inks),
+    ...row(272, 'All triples', listed('all', [2, 3])),
+    ...row(535, 'Delaunay facets', listed('delaunay', [2, 3, 4, 5, 6])),
+  ]);
+}
+
+function figure9() {
+  const { single, pairs } = results.optimality;
+  const sets = (rows, weight) =>
+    [['delaunay', 'k2'], ['near', 'k5']].map(([space, ink]) => ({
+      ink,
+      values: rows.filter((r) => r.weight === weight).map((r) => optimality(r, space)).filter((v) => v !== null),
+    }));
+  const even = (low, high, bins) => Array.from({ length: bins + 1 }, (_, i) => low + ((high - low) * i) / bins);
+  const panel = (x, y, rows, kind, weight) => {
+    const isArea = weight === 'area';
+    const values = sets(rows, weight).flatMap((set) => set.values);
+    const low = Math.floor(10 * Math.min(...values)) / 10;
+    const edges = isArea ? even(Math.min(low, 0.9), 1, 10) : even(0, Math.max(2, Math.ceil(Math.max(...values) / 2) * 2), 10);
+    return histogram({
+      x, y, width: 430, height: 235,
+      title: `${kind}: ${weight}`,
+      xLabel: isArea ? 'area of the optimum among all triples / area found' : 'degrees above the optimum, per interior edge',
+      edges, format: (v) => String(Math.round(100 * v) / 100), sets: sets(rows, weight),
+    });
+  };
+  const missing = [...single, ...pairs].filter((r) => r.weight === 'area' && r.delaunay.cost === null).length;
+  return drawing(900, 590, 'What smaller candidate spaces cost (figure 9)', [
+    legend(20, 56, [
+      { ink: 'k2', mark: 'bar', text: 'Delaunay facets' },
+      { ink: 'k5', mark: 'bar', text: 'near triples' },
+    ]),
+    text(300, 56, `random loops on closed surfaces, ${single.length / 2} inputs each${missing > 0 ? `; ${missing} have no surface of Delaunay facets` : ''}`),
+    panel(10, 80, single, 'One loop of 100 to 200 vertices', 'area'),
+    panel(455, 80, pairs, 'Two loops of 10 to 20 vertices', 'area'),
+    panel(10, 335, single, 'One loop of 100 to 200 vertices', 'dihedral'),
+    panel(455, 335, pairs, 'Two loops of 10 to 20 vertices', 'dihedral'),
+  ]);
+}
+
+await load();
+const shown = pictures();
+const files = {
+  'figure-7-one-curve.svg': figure7(shown),
+  'figure-8-several-curves.svg': figure8(shown),
+  'figure-9-optimality.svg': figure9(),
+};
+for (const [name, svg] of Object.entries(files)) writeFileSync(path.join(folder, name), svg);

@@ -1,0 +1,210 @@
+// The benchmark's measurements as text: a row a case, fitted exponents, goals, and the README's table.
+
+/** Series are fitted over cases that take at least this long: below, calls and not work are measured. */
+const kLeastFitted = 0.5e-3;
+
+export const quantile = (values, share) => {
+  const sorted = [...values].sort((a, b) => a - b);
+  return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
+};
+
+/** Median and relative interquartile range of the warm runs, and the first run apart. */
+export function summary({ seconds, ...found }) {
+  const [first, ...warm] = seconds;
+  const runs = warm.length > 0 ? warm : seconds;
+  const median = quantile(runs, 0.5);
+  const spread = runs.length < 3 ? null : (quantile(runs, 0.75) - quantile(runs, 0.25)) / median;
+  return { median, spread, first, runs: seconds.length, ...found };
+}
+
+/** Least squares for y = factor · n^exponent on logarithms; null for fewer than three points. */
+export function fitPower(points) {
+  if (points.length < 3) return null;
+  const logs = points.map(([n, y]) => [Math.log(n), Math.log(y)]);
+  const mean = (i) => logs.reduce((sum, p) => sum + p[i], 0) / logs.length;
+  const [x, y] = [mean(0), mean(1)];
+  const across = logs.reduce((sum, p) => sum + (p[0] - x) * (p[1] - y), 0);
+  const along = logs.reduce((sum, p) => sum + (p[0] - x) ** 2, 0);
+  if (along === 0) return null;
+  const exponent = across / along;
+  return { exponent, factor: Math.exp(y - exponent * x) };
+}
+
+/** Exponents of time and memory over the number of vertices, for every series of three cases or more. */
+export function fitSeries(cases) {
+  const done = cases.filter((c) => c.wasm?.median >= kLeastFitted && c.series !== undefined);
+  return [...new Set(done.map((c) => c.series))].flatMap((series) => {
+    const rows = done.filter((c) => c.series === series);
+    const fit = (value) => fitPower(rows.map((c) => [c.n, value(c)]));
+    const time = fit((c) => c.wasm.median);
+    if (!time || new Set(rows.map((c) => c.n)).size < 3) return [];
+    const sizes = rows.map((c) => c.n);
+    return {
+      series,
+      from: Math.min(...sizes),
+      to: Math.max(...sizes),
+      time: time.exponent,
+      memory: fit((c) => c.wasm.peakBytes)?.exponent ?? null,
+    };
+  });
+}
+
+export function time(seconds) {
+  if (seconds < 0.01) return `${(1000 * seconds).toFixed(2)} ms`;
+  if (seconds < 0.1) return `${(1000 * seconds).toFixed(1)} ms`;
+  if (seconds < 1) return `${(1000 * seconds).toFixed(0)} ms`;
+  return `${seconds.toPrecision(3)} s`;
+}
+
+export function memory(bytes) {
+  const megabytes = bytes / 1e6;
+  return `${megabytes < 100 ? megabytes.toFixed(1) : megabytes.toFixed(0)} MB`;
+}
+
+const percent = (share) => (share === null ? '' : `±${(100 * share).toFixed(0)}%`);
+const left = (text, width) => String(text).padEnd(width);
+const right = (text, width) => String(text ?? '').padStart(width);
+
+const kCaseWidth = 36;
+
+export const kHeading = [
+  left('case', kCaseWidth),
+  right('native', 9),
+  right('±', 5),
+  right('wasm', 9),
+  right('±', 5),
+  right('ratio', 6),
+  right('first', 9),
+  right('peak', 9),
+  right('heap', 9),
+  right('domains', 10),
+  '  cost',
+].join(' ');
+
+/** One case: medians, their ratio, the first run in WebAssembly, the solver's peak and the whole heap. */
+export function row(c) {
+  const { native, wasm } = c;
+  const side = (s) => [right(s?.median === undefined ? (s?.problem ?? '–') : time(s.median), 9), right(s?.median === undefined ? '' : percent(s.spread), 5)];
+  const ratio = native?.median && wasm?.median ? (wasm.median / native.median).toFixed(2) : '';
+  const cells = [left(c.id, kCaseWidth), ...side(native), ...side(wasm), right(ratio, 6)];
+  const found = wasm?.median ? wasm : native?.median ? native : undefined;
+  if (!found) return cells.join(' ');
+  cells.push(
+    right(wasm?.median ? time(wasm.first) : '', 9),
+    right(memory(found.peakBytes), 9),
+    right(wasm?.median ? memory(wasm.processBytes) : '', 9),
+    right(found.domains, 10),
+    `  ${answer(found)}`,
+  );
+  if (disagreement(c)) cells.push(`  NATIVE AND WASM DIFFER: ${native.cost}`);
+  return cells.join(' ').trimEnd();
+}
+
+function answer(found) {
+  if (!found.found) return `none in ${found.space}`;
+  const cost = Number(found.cost.toPrecision(9));
+  if (found.optimal) return String(cost);
+  const gap = (100 * (found.cost - found.lowerBound)) / found.cost;
+  return `${cost}, gap ${gap.toFixed(2)} %`;
+}
+
+/** Whether the two sides found different costs, where both were to find the optimum. Rounding differs. */
+export function disagreement({ native, wasm, bestSoFar }) {
+  if (bestSoFar || !native?.median || !wasm?.median) return false;
+  if (native.found !== wasm.found) return true;
+  return Math.abs(native.cost - wasm.cost) > 1e-10 * Math.abs(native.cost);
+}
+
+export function fitLines(fits) {
+  const lines = fits.map(({ series, from, to, time: t, memory: m }) => {
+    const range = `n = ${from} to ${to}`;
+    return [left(series, kCaseWidth), right(t.toFixed(2), 6), right(m?.toFixed(2), 8), `  ${range}`].join(' ');
+  });
+  return [`${left('growth with n, WebAssembly', kCaseWidth)} ${right('time', 6)} ${right('memory', 8)}`, ...lines];
+}
+
+const verdict = (isMet) => (isMet ? 'met' : 'NOT MET');
+
+/** What was to be reached, the measured WebAssembly figure beside it. */
+export function goalLines(cases) {
+  const lines = cases
+    .filter((c) => c.goal && c.wasm)
+    .map(({ id, goal, wasm }) => {
+      const isMet = wasm.median <= goal.seconds;
+      const fits = wasm.peakBytes <= 1e6 * goal.megabytes;
+      return [
+        left(id, kCaseWidth),
+        right(wasm.median === undefined ? wasm.problem : time(wasm.median), 9),
+        right(`≤ ${time(goal.seconds)}`, 11),
+        left(verdict(isMet), 8),
+        right(wasm.median === undefined ? '' : memory(wasm.peakBytes), 9),
+        right(`≤ ${goal.megabytes} MB`, 9),
+        verdict(fits),
+      ].join(' ');
+    });
+  return lines.length === 0 ? [] : ['To reach', ...lines];
+}
+
+const kDragGoal = 0.03;
+
+/** The interactive case: most round trips have to be short, not half of them. */
+export function dragLines({ vertices, candidates, seconds }) {
+  const [median, most, worst] = [0.5, 0.95, 1].map((share) => quantile(seconds, share));
+  return [
+    `Dragging a vertex of ${vertices} (Delaunay, ${candidates} candidates), ${seconds.length} round trips through the worker:`,
+    `median ${time(median)}, 95 % within ${time(most)} (≤ ${time(kDragGoal)}: ${verdict(most <= kDragGoal)}), longest ${time(worst)}, first ${time(seconds[0])}`,
+  ];
+}
+
+/** Optimality of a row of the suite of figure 9 in a smaller space; null where it holds no surface. */
+export function optimality({ weight, interiorEdges, all, ...spaces }, space) {
+  const { cost } = spaces[space];
+  if (cost === null) return null;
+  if (weight === 'area') return all.cost / cost;
+  return ((cost - all.cost) * 180) / Math.PI / interiorEdges;
+}
+
+export function optimalityLines(suites) {
+  const lines = [`${left('optimality against all triples', kCaseWidth)} ${['least', '5 %', 'median', '95 %', 'most'].map((word) => right(word, 8)).join('')}    none`];
+  for (const [kind, rows] of Object.entries(suites)) {
+    for (const weight of ['area', 'dihedral']) {
+      const chosen = rows.filter((r) => r.weight === weight);
+      for (const space of ['delaunay', 'near']) {
+        const values = chosen.map((r) => optimality(r, space)).filter((v) => v !== null);
+        const cells = [0, 0.05, 0.5, 0.95, 1].map((share) => right(values.length > 0 ? quantile(values, share).toFixed(3) : '', 8));
+        const title = `${kind} ${weight}${weight === 'area' ? ' (ratio)' : ' (° an edge)'} ${space}`;
+        lines.push(`${left(title, kCaseWidth)} ${cells.join('')}  ${right(chosen.length - values.length, 6)}`);
+      }
+    }
+  }
+  return lines;
+}
+
+/** The README's table: inputs on which the authors' program was measured, then what it cannot do. */
+export function readmeTable({ cases, drag }) {
+  const figures = ({ seconds, megabytes }) => `${time(seconds)}, ${megabytes.toFixed(0)} MB`;
+  const line = (c, other) => {
+    const [, size, space, weighing] = /(\d+x\d+|\w+) (\w+) (\w+)$/.exec(c.id);
+    const per = c.n / c.k;
+    const curves = c.k === 1 ? `1 × ${thousands(c.n)}` : /^\d+x/.test(size) || Number.isInteger(per) ? `${c.k} × ${thousands(per)}` : size;
+    return `| ${curves} | ${space === 'all' ? 'all triples' : 'Delaunay'} | ${weighing} | ${time(c.wasm.median)}, ${memory(c.wasm.peakBytes)} | ${other} |`;
+  };
+  const measured = cases.filter((c) => c.wasm?.median && c.wasm.found);
+  const against = measured.filter((c) => c.authors && c.authors.seconds >= 0.15);
+  const known = new Set(against.map((c) => `${c.k} ${c.n} ${c.space} ${c.weights}`));
+  const beyond = measured.filter((c) => c.goal && !c.authors && !known.has(`${c.k} ${c.n} ${c.space} ${c.weights}`));
+  const many = measured.filter((c) => c.bestSoFar).map((c) => `| ${c.k} × ${c.n / c.k} | Delaunay | dihedral | ${time(c.wasm.median)}, ${memory(c.wasm.peakBytes)}; ${c.wasm.optimal ? 'optimal' : `within ${((100 * (c.wasm.cost - c.wasm.lowerBound)) / c.wasm.cost).toFixed(1)} % of the optimum`} | |`);
+  const lines = [
+    '| curves × vertices | candidates | weight | soapfilm, WebAssembly | the paper authors\' program, native |',
+    '|---|---|---|---|---|',
+    ...against.map((c) => line(c, figures(c.authors))),
+    ...beyond.map((c) => line(c, '')),
+    ...many,
+  ];
+  if (drag) {
+    lines.push('', `Dragging one vertex of two curves of 40 (Delaunay candidates): ${time(quantile(drag.seconds, 0.5))} a round trip through the worker, 95 % within ${time(quantile(drag.seconds, 0.95))}.`);
+  }
+  return lines.join('\n');
+}
+
+const thousands = (n) => String(n).replace(/\B(?=(\d{3})+$)/g, ' ');
