@@ -81,10 +81,6 @@ bool Flood::start() {
 /// One transition: the decision tree of fig. 9.
 Flood::Step Flood::step() {
   const uint32_t nextLeft = nodes_[chain_.left].prev, nextRight = nodes_[chain_.right].next;
-  if (nextLeft == nextRight) {
-    fill(nextLeft);
-    return Step::Done;
-  }
   const bool left = below(nodes_[nextLeft].at, nodes_[nextRight].at);
   const uint32_t next = left ? nextLeft : nextRight, end = left ? chain_.left : chain_.right;
   if (nodes_[end].kind == VertexKind::Top) {
@@ -103,6 +99,10 @@ Flood::Step Flood::step() {
   const uint32_t sag = nodes_[chain_.left].sag;
   if (sag != kNone && below(nodes_[sag].at, nodes_[next].at))
     return bridge(sag) ? Step::On : Step::Forbidden;
+  if (nextLeft == nextRight) {
+    fill(next);
+    return Step::Done;
+  }
   return (left ? raiseLeft(next) : raiseRight(next)) ? Step::On : Step::Forbidden;
 }
 

@@ -19,13 +19,12 @@ struct Extent {
     finite &= a <= kLargest;  // false for NaN
     largest = a > largest ? a : largest;
   }
-  /// The power of two by which to scale, so that predicates neither over- nor underflow; 1 for
-  /// everything but extreme numbers.
+  /// The power of two by which to scale, so that tiny polygons do not live on underflows.
   double scale() const {
-    if (largest == 0 || (largest > 0x1p-200 && largest < 0x1p200)) return 1;
+    if (largest == 0 || largest > 0x1p-200) return 1;
     int exponent;
     std::frexp(largest, &exponent);
-    return std::ldexp(1.0, -exponent);
+    return std::ldexp(1.0, exponent < -1000 ? 1000 : -exponent);
   }
 };
 

@@ -57,7 +57,7 @@ struct SweepState {
   bool collect(size_t i, size_t count, uint32_t first, uint32_t last, Point2 at);
   bool overlap(const HalfEdge& a, const HalfEdge& b);
   bool strandsPart();
-  bool alternate(uint32_t left);
+  bool alternates(uint32_t left);
   void relink(uint32_t left, uint32_t right);
   void corner(VertexKind kind, const HalfEdge& in, HalfEdge& out, uint32_t left, uint32_t right);
   void replaceBlock(uint32_t first, uint32_t last, uint32_t left);

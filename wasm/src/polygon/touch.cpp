@@ -35,10 +35,14 @@ bool State::passTouch(size_t i, size_t count) {
   const uint32_t vertex = loops->vertex[events[i].node];
   for (uint32_t e = first; e != kNone; e = e == last ? kNone : edges[e].right)
     if (!(edges[e].hi == at)) divide(e, vertex, at);
-  if (!collect(i, count, first, last, at) || !strandsPart()) return false;
+  if (!collect(i, count, first, last, at)) return false;
   const uint32_t right =
       last == kNone ? (left == kNone ? edges.leftmost() : edges[left].right) : edges[last].right;
-  if (alternate(left) && misplaced.ok()) relink(left, right);
+  if (alternates(left)) {
+    if (misplaced.ok()) relink(left, right);
+  } else if (!strandsPart()) {
+    return false;
+  }
   replaceBlock(first, last, left);
   return true;
 }
@@ -176,10 +180,15 @@ bool State::strandsPart() {
   return true;
 }
 
-/// Whether edges that lead down and up alternate above the point, as they do where the winding
-/// number is 0 and 1 by turns.
-bool State::alternate(uint32_t left) {
-  bool down = lower.empty() ? !isInside(left) : lower[0].down;
+/// Whether edges that lead down and up alternate at the point, as they do where the winding number
+/// is 0 and 1 by turns. Loops may change sides at the point as long as that is so.
+bool State::alternates(uint32_t left) {
+  if (!misplaced.ok()) {  // then nothing is known of what lies below
+    for (size_t k = 1; k < lower.size(); ++k)
+      if (lower[k].down == lower[k - 1].down) return false;
+  }
+  if (upper.empty()) return true;
+  bool down = !lower.empty() ? lower[0].down : misplaced.ok() ? !isInside(left) : upper[0].down;
   for (size_t k = 0; k < upper.size(); ++k, down = !down)
     if (upper[k].down != down) {
       const uint32_t before = k > 0           ? upper[k - 1].input

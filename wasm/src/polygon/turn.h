@@ -1,21 +1,25 @@
-// orient2d on points, its filter inline: the one geometric test of the sweep and of flooding.
+// orient2d on points of any magnitude, its filter inline: the one geometric test of the sweep and of
+// flooding.
 // Source: Shewchuk 1997, orient2d, stage A; Ronfard, Rossignac 1994, sec. 5, `convex`.
 #pragma once
 #include <cmath>
 
-#include "base/predicates.h"
 #include "polygon/polygon.h"
 
 namespace sf {
 
-/// Positive if a, b, c turn left, negative if right, 0 if collinear. Exact; see base/predicates.h
-/// for the range.
+/// turn for what the filter cannot tell: base/predicates.h where its range allows, else a sum in
+/// integers of some thousand bits.
+double turnExactly(Point2 a, Point2 b, Point2 c);
+
+/// Positive if a, b, c turn left, negative if right, 0 if collinear. Exact for all numbers up to
+/// 1e150.
 inline double turn(Point2 a, Point2 b, Point2 c) {
   const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
   const double det = left - right;
   // Shewchuk's (3 + 16 u) u with u = 2^-53, rounded up; the last term is above all underflows.
   if (std::fabs(det) > 0x1p-51 * (std::fabs(left) + std::fabs(right)) + 1e-290) return det;
-  return orient2d(a.x, a.y, b.x, b.y, c.x, c.y);
+  return turnExactly(a, b, c);
 }
 
 }  // namespace sf
