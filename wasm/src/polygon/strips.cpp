@@ -1,7 +1,6 @@
 #include "polygon/strips.h"
 
 #include "base/charge.h"
-#include "polygon/triangle_mesh.h"
 
 namespace sf {
 namespace {
@@ -17,12 +16,12 @@ uint32_t turnOf(uint32_t in, uint32_t out) { return out == nextInTriangle(in) ? 
 // The first turn of a strip, in its second triangle, has to be 1 or costs a swap.
 uint32_t firstTurnCost(uint32_t turn) { return turn == 0 ? kSwapCost : 0; }
 
-class StripMaker {
+class StripFinder {
  public:
-  StripMaker(ArrayView<const uint32_t> corners, ArrayView<const uint32_t> twins, Work& work)
-      : corners_(corners), twins_(twins), work_(work), charge_(work) {}
+  StripFinder(ArrayView<const uint32_t> twins, Work& work, StripLinks& links)
+      : twins_(twins), work_(work), charge_(work), links_(links) {}
 
-  bool run(std::vector<uint32_t>& vertices, std::vector<uint32_t>& starts);
+  bool run();
 
  private:
   // Least costs of what hangs below a triangle t in the forest, by what t has to do with the strip of
@@ -37,9 +36,8 @@ class StripMaker {
   void findCosts(uint32_t t);
   bool choosePaths();
   bool joinEnds();
-  void writeStrip(uint32_t first, std::vector<uint32_t>& vertices);
 
-  uint32_t triangleCount() const { return uint32_t(corners_.size() / 3); }
+  uint32_t triangleCount() const { return uint32_t(twins_.size() / 3); }
   // The triangle below t across its half-edge h, or kNone.
   uint32_t childAcross(uint32_t h) const {
     const uint32_t g = twins_[h];
@@ -56,36 +54,18 @@ class StripMaker {
   };
   Choice bestTop(uint32_t t) const;
 
-  bool linked(uint32_t h) const { return links_[h / 3] >> (h % 3) & 1; }
-  void link(uint32_t h) {
-    links_[h / 3] |= uint8_t(1u << (h % 3));
-    const uint32_t g = twins_[h];
-    links_[g / 3] |= uint8_t(1u << (g % 3));
-  }
-  int linkCount(uint32_t t) const {
-    return (links_[t] & 1) + (links_[t] >> 1 & 1) + (links_[t] >> 2 & 1);
-  }
-  uint32_t onlyLink(uint32_t t) const {
-    return links_[t] == 0 ? kNone : 3 * t + (links_[t] == 1 ? 0 : links_[t] == 2 ? 1 : 2);
-  }
-  // The half-edge by which a path that entered t by `in` leaves it, kNone where it ends.
-  uint32_t exitOf(uint32_t in) const {
-    if (linked(nextInTriangle(in))) return nextInTriangle(in);
-    return linked(prevInTriangle(in)) ? prevInTriangle(in) : kNone;
-  }
-  uint32_t swapsFrom(uint32_t first) const;
   uint32_t root(uint32_t t) {
     while (path_[t] != t) t = path_[t] = path_[path_[t]];
     return t;
   }
 
-  ArrayView<const uint32_t> corners_, twins_;
+  ArrayView<const uint32_t> twins_;
   Work& work_;
   Charge charge_;
   std::vector<uint32_t> order_;  // triangles, each after the one above it
   std::vector<uint32_t> up_;     // half-edge of each triangle towards the one above, kNone at roots
   std::vector<Costs> costs_;
-  std::vector<uint8_t> links_;  // bit k: the strip crosses half-edge 3t + k
+  StripLinks& links_;
   std::vector<uint32_t> path_;  // union-find over the triangles of one path
 };
 
@@ -93,7 +73,7 @@ class StripMaker {
 enum State { kApart = 0, kEnds = 1, kTurns = 2 };  // kTurns + 2 turn + starts
 
 // Depth first, so that paths are long; straight on (the turns alternating) where there is a choice.
-bool StripMaker::growForest() {
+bool StripFinder::growForest() {
   const uint32_t count = triangleCount();
   order_.reserve(count);
   up_.assign(count, kNone);
@@ -139,7 +119,7 @@ bool StripMaker::growForest() {
 
 /// Cost below t of a strip that comes from t, with that turn there, and ends below; `starts` if the
 /// lower end is where the strip starts. `choice` is the State of the child.
-uint32_t StripMaker::tail(uint32_t child, uint32_t turn, bool starts, int& choice) const {
+uint32_t StripFinder::tail(uint32_t child, uint32_t turn, bool starts, int& choice) const {
   const Costs& c = costs_[child];
   uint32_t best = c.ends + (starts ? firstTurnCost(1 - turn) : 0);
   choice = kEnds;
@@ -151,7 +131,7 @@ uint32_t StripMaker::tail(uint32_t child, uint32_t turn, bool starts, int& choic
 }
 
 /// The same where the upper end of the strip is in t itself.
-uint32_t StripMaker::tailOfTop(uint32_t child, bool starts, int& choice) const {
+uint32_t StripFinder::tailOfTop(uint32_t child, bool starts, int& choice) const {
   const Costs& c = costs_[child];
   uint32_t best = c.ends;
   choice = kEnds;
@@ -163,7 +143,7 @@ uint32_t StripMaker::tailOfTop(uint32_t child, bool starts, int& choice) const {
 }
 
 /// The best strip whose uppermost triangle is t.
-StripMaker::Choice StripMaker::bestTop(uint32_t t) const {
+StripFinder::Choice StripFinder::bestTop(uint32_t t) const {
   uint32_t sum = kStripCost, child[3];
   for (uint32_t k = 0; k < 3; ++k) sum += apart(child[k] = childAcross(3 * t + k));
   Choice best;
@@ -188,7 +168,7 @@ StripMaker::Choice StripMaker::bestTop(uint32_t t) const {
   return best;
 }
 
-void StripMaker::findCosts(uint32_t t) {
+void StripFinder::findCosts(uint32_t t) {
   Costs& c = costs_[t];
   c.apart = bestTop(t).cost;
   if (up_[t] == kNone) return;
@@ -205,20 +185,20 @@ void StripMaker::findCosts(uint32_t t) {
 }
 
 /// Costs from the leaves up, then the choices behind the best of them from the roots down.
-bool StripMaker::choosePaths() {
+bool StripFinder::choosePaths() {
   const uint32_t count = triangleCount();
   costs_.resize(count);
   for (uint32_t i = count; i-- > 0;) {
     findCosts(order_[i]);
     if (!work_.tick(64)) return false;
   }
-  links_.assign(count, 0);
+  links_.bits.assign(count, 0);
   std::vector<uint8_t> state(count, kApart);
   for (const uint32_t t : order_) {
     if (state[t] == kApart) {
       const Choice best = bestTop(t);
       for (int i = 0; i < best.links; ++i) {
-        link(best.edge[i]);
+        links_.link(best.edge[i], twins_[best.edge[i]]);
         state[twins_[best.edge[i]] / 3] = uint8_t(best.state[i]);
       }
     } else if (state[t] >= kTurns) {
@@ -227,7 +207,7 @@ bool StripMaker::choosePaths() {
       int choice;
       const uint32_t child = childAcross(exit);
       tail(child, turn, starts, choice);
-      link(exit);
+      links_.link(exit, twins_[exit]);
       state[child] = uint8_t(choice);
     }
   }
@@ -235,36 +215,19 @@ bool StripMaker::choosePaths() {
 }
 
 /// Joins paths end to end across edges that the forest has not, while that saves indices.
-bool StripMaker::joinEnds() {
+bool StripFinder::joinEnds() {
   const uint32_t count = triangleCount();
   path_.resize(count);
   for (uint32_t t = 0; t < count; ++t) path_[t] = t;
   for (uint32_t h = 0; h < 3 * count; ++h)
-    if (twins_[h] != kNone && linked(h)) path_[root(h / 3)] = root(twins_[h] / 3);
-
-  // Turn in triangle h / 3 when its path leaves by h, and the one before: 2 where there is none.
-  const auto turnsTo = [&](uint32_t h, uint32_t& before) {
-    before = 2;
-    const uint32_t in = onlyLink(h / 3);
-    if (in == kNone) return 2u;
-    const uint32_t g = twins_[in], entry = linkCount(g / 3) < 2 ? kNone : exitOf(g);
-    if (entry != kNone) before = turnOf(entry, g);
-    return turnOf(in, h);
-  };
+    if (links_.linked(h)) path_[root(h / 3)] = root(twins_[h] / 3);
   for (uint32_t allowed = 0; allowed < 2; ++allowed) {
     for (uint32_t h = 0; h < 3 * count; ++h) {
       const uint32_t g = twins_[h];
-      if (g == kNone || g < h || linked(h)) continue;
-      if (linkCount(h / 3) > 1 || linkCount(g / 3) > 1 || root(h / 3) == root(g / 3)) continue;
-      uint32_t before, after;
-      const uint32_t here = turnsTo(h, before);
-      const uint32_t there = turnsTo(g, after);  // seen the other way round
-      uint32_t swaps = 0;
-      if (here < 2) swaps += before == here;
-      if (there < 2) swaps += after == there;
-      if (here < 2 && there < 2) swaps += here == 1 - there;
-      if (swaps > allowed) continue;
-      link(h);
+      if (g == kNone || g < h || links_.linked(h)) continue;
+      if (links_.count(h / 3) > 1 || links_.count(g / 3) > 1) continue;
+      if (links_.swapsToJoin(twins_, h) > allowed || root(h / 3) == root(g / 3)) continue;
+      links_.link(h, g);
       path_[root(h / 3)] = root(g / 3);
     }
     if (!work_.tick(16 * count)) return false;
@@ -272,12 +235,17 @@ bool StripMaker::joinEnds() {
   return true;
 }
 
+bool StripFinder::run() {
+  if (!charge_.add(uint64_t(triangleCount()) * (sizeof(Costs) + 16))) return false;
+  return growForest() && choosePaths() && joinEnds();
+}
+
 /// Swaps of the path that starts in the end triangle `first`.
-uint32_t StripMaker::swapsFrom(uint32_t first) const {
+uint32_t swapsFrom(ArrayView<const uint32_t> twins, const StripLinks& links, uint32_t first) {
   uint32_t swaps = 0, last = 0;  // a first turn 0 costs as much as one after another turn 0
-  for (uint32_t out = onlyLink(first); out != kNone;) {
-    const uint32_t in = twins_[out];
-    out = exitOf(in);
+  for (uint32_t out = links.only(first); out != kNone;) {
+    const uint32_t in = twins[out];
+    out = links.exit(in);
     if (out == kNone) break;
     const uint32_t turn = turnOf(in, out);
     swaps += turn == last;
@@ -286,21 +254,22 @@ uint32_t StripMaker::swapsFrom(uint32_t first) const {
   return swaps;
 }
 
-void StripMaker::writeStrip(uint32_t first, std::vector<uint32_t>& vertices) {
-  uint32_t out = onlyLink(first);
+void writeStrip(ArrayView<const uint32_t> corners, ArrayView<const uint32_t> twins,
+                const StripLinks& links, uint32_t first, std::vector<uint32_t>& vertices) {
+  uint32_t out = links.only(first);
   if (out == kNone) {
-    vertices.insert(vertices.end(), &corners_[3 * first], &corners_[3 * first] + 3);
+    vertices.insert(vertices.end(), &corners[3 * first], &corners[3 * first] + 3);
     return;
   }
-  uint32_t p = corners_[out], q = corners_[nextInTriangle(out)];  // the last two indices
-  vertices.push_back(corners_[prevInTriangle(out)]);
+  uint32_t p = corners[out], q = corners[nextInTriangle(out)];  // the last two indices
+  vertices.push_back(corners[prevInTriangle(out)]);
   vertices.push_back(p);
   vertices.push_back(q);
   while (out != kNone) {
-    const uint32_t in = twins_[out], apex = corners_[prevInTriangle(in)];
-    out = exitOf(in);
+    const uint32_t in = twins[out], apex = corners[prevInTriangle(in)];
+    out = links.exit(in);
     if (out != kNone) {
-      const uint32_t a = corners_[out], b = corners_[nextInTriangle(out)];
+      const uint32_t a = corners[out], b = corners[nextInTriangle(out)];
       const bool swap = (a == apex ? b : a) != q;
       if (swap) vertices.push_back(p);
       p = swap ? p : q;
@@ -310,34 +279,61 @@ void StripMaker::writeStrip(uint32_t first, std::vector<uint32_t>& vertices) {
   }
 }
 
-bool StripMaker::run(std::vector<uint32_t>& vertices, std::vector<uint32_t>& starts) {
-  const uint32_t count = triangleCount();
+}  // namespace
+
+uint32_t StripLinks::swapsToJoin(ArrayView<const uint32_t> twins, uint32_t h) const {
+  // The turn in the triangle of an end when its strip goes on across its half-edge, and the turn before
+  // that; 2 where there is none.
+  const auto turnsTo = [&](uint32_t out, uint32_t& before) {
+    before = 2;
+    const uint32_t in = only(out / 3);
+    if (in == kNone) return 2u;
+    const uint32_t g = twins[in], entry = exit(g);
+    if (entry != kNone) before = turnOf(entry, g);
+    return turnOf(in, out);
+  };
+  uint32_t before, after, swaps = 0;
+  const uint32_t here = turnsTo(h, before), there = turnsTo(twins[h], after);
+  if (here < 2) swaps += before == here;
+  if (there < 2) swaps += after == there;
+  if (here < 2 && there < 2) swaps += here == 1 - there;  // `there` is seen the other way round
+  return swaps;
+}
+
+bool linkStrips(ArrayView<const uint32_t> twins, Work& work, StripLinks& links) {
+  return StripFinder(twins, work, links).run();
+}
+
+bool writeStrips(ArrayView<const uint32_t> corners, ArrayView<const uint32_t> twins,
+                 const StripLinks& links, ArrayView<const uint32_t> among, Work& work,
+                 std::vector<uint32_t>& vertices, std::vector<uint32_t>& starts) {
+  std::vector<bool> written(corners.size() / 3, false);
   vertices.clear();
+  vertices.reserve(among.size() + among.size() / 2);
   starts.assign(1, 0);
-  if (!charge_.add(uint64_t(count) * (sizeof(Costs) + 16))) return false;
-  if (!growForest() || !choosePaths() || !joinEnds()) return false;
-  std::vector<bool> written(count, false);
-  vertices.reserve(size_t(count) + count / 2);
-  for (const uint32_t t : order_) {
-    if (written[t] || linkCount(t) > 1) continue;
+  for (const uint32_t t : among) {
+    if (written[t] || links.count(t) > 1) continue;
     uint32_t last = t;
     written[t] = true;
-    for (uint32_t out = onlyLink(t); out != kNone; out = exitOf(twins_[out])) {
-      last = twins_[out] / 3;
+    for (uint32_t out = links.only(t); out != kNone; out = links.exit(twins[out])) {
+      last = twins[out] / 3;
       written[last] = true;
     }
-    writeStrip(swapsFrom(last) < swapsFrom(t) ? last : t, vertices);
+    const bool reversed = swapsFrom(twins, links, last) < swapsFrom(twins, links, t);
+    writeStrip(corners, twins, links, reversed ? last : t, vertices);
     starts.push_back(uint32_t(vertices.size()));
-    if (!work_.tick(32)) return false;
+    if (!work.tick(32)) return false;
   }
   return true;
 }
 
-}  // namespace
-
 bool makeStrips(ArrayView<const uint32_t> corners, ArrayView<const uint32_t> twins, Work& work,
                 std::vector<uint32_t>& vertices, std::vector<uint32_t>& starts) {
-  return StripMaker(corners, twins, work).run(vertices, starts);
+  StripLinks links;
+  if (!linkStrips(twins, work, links)) return false;
+  std::vector<uint32_t> all(corners.size() / 3);
+  for (uint32_t t = 0; t < all.size(); ++t) all[t] = t;
+  return writeStrips(corners, twins, links, all, work, vertices, starts);
 }
 
 }  // namespace sf

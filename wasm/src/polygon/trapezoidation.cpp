@@ -226,6 +226,7 @@ bool TrapezoidTriangulator::triangulate(const LinkedPolygon& linked, const Visib
   corners.resize(size_t(out - corners.data()));
 
   mesh_.at = linked.at;
+  mesh_.unused.clear();
   if (!charge.add(4 * uint64_t(corners.size()))) return false;
   const uint32_t budget = uint32_t(flips * double(corners.size() / 3));
   bool islands = false;

@@ -48,6 +48,25 @@ bool TriangleMesh::isIllegal(uint32_t h) const {
   return incircle(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y) > 0;
 }
 
+uint32_t TriangleMesh::create(uint32_t a, uint32_t b, uint32_t c) {
+  uint32_t h = uint32_t(corners.size());
+  if (unused.empty()) {
+    corners.resize(corners.size() + 3);
+    twins.resize(corners.size());
+  } else {
+    h = 3 * unused.back();
+    unused.pop_back();
+  }
+  corners[h] = a, corners[h + 1] = b, corners[h + 2] = c;
+  twins[h] = twins[h + 1] = twins[h + 2] = kNone;
+  return h;
+}
+
+void TriangleMesh::discard(uint32_t t) {
+  for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) corners[h] = twins[h] = kNone;
+  unused.push_back(t);
+}
+
 void TriangleMesh::findEdges() {
   edgeFrom.assign(at.size(), kNone);
   for (uint32_t h = 0; h < corners.size(); ++h)
@@ -70,9 +89,7 @@ void TriangleMesh::splitTriangle(uint32_t h, uint32_t v) {
   const uint32_t h1 = nextInTriangle(h), h2 = prevInTriangle(h);
   const uint32_t b = corners[h1], c = corners[h2];
   const uint32_t across1 = twins[h1], across2 = twins[h2];
-  const uint32_t p = uint32_t(corners.size()), q = p + 3;
-  corners.insert(corners.end(), {b, c, v, c, corners[h], v});
-  twins.resize(corners.size(), kNone);
+  const uint32_t p = create(b, c, v), q = create(c, corners[h], v);
   moveEdge(h1, p);
   moveEdge(h2, q);
   corners[h2] = v;
@@ -88,10 +105,8 @@ void TriangleMesh::splitEdge(uint32_t h, uint32_t v) {
   const uint32_t g = twins[h], h1 = nextInTriangle(h), g1 = nextInTriangle(g);
   const uint32_t a = corners[h], b = corners[h1], c = apex(h), d = apex(g);
   const uint32_t acrossBc = twins[h1], acrossAd = twins[g1];
-  const uint32_t p = uint32_t(corners.size()), q = p + 3;
   // h: a v c, p: v b c; g: b v d, q: v a d.
-  corners.insert(corners.end(), {v, b, c, v, a, d});
-  twins.resize(corners.size(), kNone);
+  const uint32_t p = create(v, b, c), q = create(v, a, d);
   moveEdge(h1, p + 1);
   moveEdge(g1, q + 1);
   corners[h1] = v;
@@ -106,15 +121,17 @@ void TriangleMesh::splitEdge(uint32_t h, uint32_t v) {
 }
 
 void TriangleMesh::insert(Place place, uint32_t v, std::vector<uint32_t>& opposite) {
-  const uint32_t h = place.edge, g = twins[h], created = uint32_t(corners.size());
-  if (place.onEdge) {
-    splitEdge(h, v);
-    opposite.insert(opposite.end(),
-                    {prevInTriangle(h), prevInTriangle(g), created + 1, created + 4});
-  } else {
-    splitTriangle(h, v);
-    opposite.insert(opposite.end(), {h, created, created + 3});
-  }
+  if (place.onEdge)
+    splitEdge(place.edge, v);
+  else
+    splitTriangle(place.edge, v);
+  // The edges around v: opposite to it in the triangle of each half-edge out of it.
+  const uint32_t first = place.onEdge ? nextInTriangle(place.edge) : prevInTriangle(place.edge);
+  uint32_t h = first;
+  do {
+    opposite.push_back(nextInTriangle(h));
+    h = twins[prevInTriangle(h)];
+  } while (h != first);
 }
 
 uint32_t legalize(TriangleMesh& mesh, std::vector<uint32_t>& edges, uint32_t budget, Work& work) {

@@ -32,13 +32,20 @@ struct TriangleMesh {
   ArrayView<const Point2> at;     // [n] positions
   std::vector<uint32_t> corners;  // [3m]
   std::vector<uint32_t> twins;    // [3m]
-  std::vector<uint32_t>
-      edgeFrom;  // [n] for each vertex a half-edge that starts there, whose edge is
-                 // kept whatever flips and splits do elsewhere; or empty
+  // [n] for each vertex a half-edge that starts there, whose edge is kept whatever flips and splits
+  // do elsewhere; or empty.
+  std::vector<uint32_t> edgeFrom;
+  std::vector<uint32_t> unused;  // triangles no longer in use, all three corners kNone
 
   uint32_t from(uint32_t h) const { return corners[h]; }
   uint32_t to(uint32_t h) const { return corners[nextInTriangle(h)]; }
   uint32_t apex(uint32_t h) const { return corners[prevInTriangle(h)]; }
+  uint32_t triangleCount() const { return uint32_t(corners.size() / 3); }
+  bool inUse(uint32_t t) const { return corners[3 * t] != kNone; }
+  /// A new triangle without twins: its first half-edge.
+  uint32_t create(uint32_t a, uint32_t b, uint32_t c);
+  /// Gives a triangle up. Its neighbours' twins are not changed.
+  void discard(uint32_t t);
   /// Sets edgeFrom: at the boundary the half-edge without a twin, elsewhere any.
   void findEdges();
   /// +1 if the vertices turn left, -1 right, 0 collinear.
@@ -56,9 +63,9 @@ struct TriangleMesh {
   /// vertices, and the half-edges before them become the sides.
   void flip(uint32_t h);
   /// Divides the triangle of h by vertex v strictly inside it: h stays, with apex v, and two triangles
-  /// are appended.
+  /// are created.
   void splitTriangle(uint32_t h, uint32_t v);
-  /// Divides edge h, which has a twin, by vertex v strictly inside it; two triangles are appended.
+  /// Divides edge h, which has a twin, by vertex v strictly inside it; two triangles are created.
   void splitEdge(uint32_t h, uint32_t v);
   /// One of the two, where `place` says that v lies; the edges opposite v are appended to `opposite`.
   struct Place {
