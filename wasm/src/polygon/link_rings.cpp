@@ -88,6 +88,8 @@ class RingLinker {
   /// leftmost of them bounds the inside from the left: it has to lead down.
   bool isCounterClockwise();
   bool repeatsItself() const { return repeats_; }
+  /// Whether all vertices are at two places, of which neighbours do not share one.
+  bool goesToAndFro() const;
   void link(bool reversed);
   /// The same for rings with repeated vertices; false for fewer than 3 distinct points in a row.
   bool linkDistinct(bool reversed);
@@ -123,6 +125,12 @@ bool RingLinker::isCounterClockwise() {
     consider(at_[after(i)], false);
   }
   return down;
+}
+
+bool RingLinker::goesToAndFro() const {
+  for (uint32_t i = first_; i + 2 <= last_; ++i)
+    if (!(at_[i] == at_[i + 2])) return false;
+  return true;
 }
 
 constexpr VertexKind kKinds[4] = {VertexKind::LeftBank, VertexKind::Bottom, VertexKind::Ceiling,
@@ -195,6 +203,7 @@ Outcome linkRings(const PolygonView& polygon, LinkedPolygon& linked,
     if (size < 3) return bad;
     RingLinker ring(linked, first, first + size - 1);
     reversed[c] = ring.isCounterClockwise() != (c == 0);
+    if (ring.goesToAndFro()) return bad;
     if (!ring.repeatsItself())
       ring.link(reversed[c]);
     else if (!ring.linkDistinct(reversed[c]))

@@ -37,7 +37,25 @@ Outcome PlaneSweep::run(const PolygonView& polygon, bool sagsOnly, Work& work,
     outcome.status = work.status();
     return outcome;
   }
-  return s.outcome.ok() ? s.misplaced : s.outcome;
+  if (s.outcome.ok()) s.outcome = s.misplaced;
+  if (!s.outcome.ok()) s.findSpike();
+  return s.outcome;
+}
+
+/// Names two consecutive edges in one direction, if there are any, in place of what they cause.
+void State::findSpike() {
+  const std::vector<Point2>& at = loops->at;
+  const uint32_t rings = uint32_t(view->starts.size()) - 1;
+  for (uint32_t c = 0; c < rings; ++c)
+    for (uint32_t v = view->starts[c]; v < view->starts[c + 1]; ++v) {
+      if (loops->kind[v] == VertexKind::Unused) continue;
+      const Point2 p = at[v], a = at[step(v, true)], b = at[step(v, false)];
+      if (below(a, p) != below(b, p) || turn(p, a, b) != 0) continue;
+      outcome = {};
+      outcome.status = Status::DegeneratePolygon;
+      outcome.loop = c, outcome.vertex = v - view->starts[c];
+      return;
+    }
 }
 
 bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility& visibility,
@@ -209,7 +227,16 @@ uint32_t State::step(uint32_t v, bool backwards) const {
 
 /// The first vertex, as the ring comes, of the edge that starts at `input` along the oriented loop.
 uint32_t State::inputEdge(uint32_t input) const {
-  return reversed[ringOf(input)] ? step(input, true) : input;
+  const uint32_t ring = ringOf(input);
+  if (reversed[ring]) return step(input, true);
+  // Of vertices at one place, the last one has the edge.
+  const uint32_t last = view->starts[ring + 1] - 1;
+  uint32_t v = input;
+  for (;;) {
+    const uint32_t next = v == last ? view->starts[ring] : v + 1;
+    if (next == input || !(loops->at[next] == loops->at[v])) return v;
+    v = next;
+  }
 }
 
 /// Records that two edges meet as they must not. Always false.

@@ -44,11 +44,12 @@ class PlaneSweep {
   /// re-linked wherever rings touch, with a node for each corner and the kind of every node.
   ///   seen   what nodes see; if `sagsOnly`, `order` has bottoms, sags and islands alone, and only
   ///          `left` of sags and islands is set
-  /// Status Ok, or, if the polygon is not valid, the first of these that applies:
+  /// Status Ok, or, if the polygon is not valid, the first of these four that applies, then of the
+  /// others the one that the sweep meets first:
   ///   BadStarts          as for loops
   ///   NotFinite          `loop` and `vertex` of a coordinate that is NaN, infinite or beyond 1e150
-  ///   DegeneratePolygon  `loop` has fewer than 3 distinct points, or a spike at `vertex`: edges
-  ///                      that leave it in one direction
+  ///   DegeneratePolygon  `loop` has fewer than 3 distinct points, or a spike at `vertex`, whose
+  ///                      two edges leave it in one direction
   ///   SelfIntersecting   two edges of one ring, given by their first vertices, that cross, overlap
   ///                      or, at a common point, change sides
   ///   HolesOverlap       the same for edges of two holes

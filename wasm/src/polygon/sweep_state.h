@@ -40,6 +40,7 @@ struct SweepState {
   Outcome outcome;    // the first crossing
   Outcome misplaced;  // the first sign of a hole in the wrong place, which a crossing may explain
 
+  void findSpike();
   bool begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility& visibility, Work& work);
   void sweep(Work& work);
   /// Handles event i, with those after it that are at the same point; returns how many, 0 after a
@@ -55,7 +56,6 @@ struct SweepState {
   bool findBlock(size_t i, size_t count, uint32_t& first, uint32_t& last, uint32_t& left);
   void divide(uint32_t e, uint32_t vertex, Point2 at);
   bool collect(size_t i, size_t count, uint32_t first, uint32_t last, Point2 at);
-  bool overlap(const HalfEdge& a, const HalfEdge& b);
   bool strandsPart();
   bool alternates(uint32_t left);
   void relink(uint32_t left, uint32_t right);
@@ -74,7 +74,6 @@ struct SweepState {
   uint32_t ringOf(uint32_t vertex) const;
   uint32_t inputOf(uint32_t e) const { return e == kNone ? kNone : uint32_t(edges[e].input); }
   uint32_t step(uint32_t v, bool backwards) const;
-  uint32_t successor(uint32_t v) const { return step(v, reversed[ringOf(v)]); }
   uint32_t inputEdge(uint32_t input) const;
   bool crossing(uint32_t inputA, uint32_t inputB);
   void misplace(uint32_t input, uint32_t besideInput);

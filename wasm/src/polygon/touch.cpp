@@ -138,20 +138,9 @@ bool State::collect(size_t i, size_t count, uint32_t first, uint32_t last, Point
   for (size_t k = 1; k < upper.size(); ++k) {
     const HalfEdge &a = upper[k - 1], &b = upper[k];
     if (turn(at, a.to, b.to) != 0) continue;
-    return overlap(a, b);
+    return crossing(a.input, b.input);  // if it is a spike, the end of the sweep tells
   }
   return true;
-}
-
-/// Records two edges that leave a point in one direction. Always false.
-bool State::overlap(const HalfEdge& a, const HalfEdge& b) {
-  for (const auto& [in, out] : {std::pair{a.input, b.input}, std::pair{b.input, a.input}})
-    if (successor(in) == out) {
-      outcome.status = Status::DegeneratePolygon;
-      outcome.loop = ringOf(out), outcome.vertex = out - view->starts[outcome.loop];
-      return false;
-    }
-  return crossing(a.input, b.input);
 }
 
 /// Whether the loops that pass the point only touch there: in circular order, the two half-edges of
