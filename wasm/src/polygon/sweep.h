@@ -44,7 +44,7 @@ class PlaneSweep {
   /// re-linked wherever rings touch, with a node for each corner and the kind of every node.
   ///   seen   what nodes see; if `sagsOnly`, `order` has bottoms, sags and islands alone, and only
   ///          `left` of sags and islands is set
-  /// Status Ok, or, if the polygon is not valid, the first of these four that applies, then of the
+  /// Status Ok, or, if the polygon is not valid, the first of these three that applies, then of the
   /// others the one that the sweep meets first:
   ///   BadStarts          as for loops
   ///   NotFinite          `loop` and `vertex` of a coordinate that is NaN, infinite or beyond 1e150
