@@ -65,6 +65,36 @@ SfStatus sf_span_loops(const double* positions, const uint32_t* starts, uint32_t
                        uint32_t triangleCount, const double* triangleWeights,
                        const uint32_t* start, uint32_t startCount, const double* settings, uint32_t* where, SfResult** result);
 
+/// Triangulates polygons with holes in the plane (Ronfard, Rossignac 1994; Kumar 2000).
+///   positions      [dimension * n] vertices; in space, polygon by polygon near a plane
+///   ringStarts     [ringCount + 1] in vertices, from 0, increasing
+///   polygonStarts  [polygonCount + 1] in rings, from 0, increasing; the first ring of each polygon is
+///                  its outer one
+///   points         [dimension * pointCount] isolated vertices inside the only polygon, numbered from
+///                  n on; or null
+///   settings       [8] dimension (2, 3); method (0 flooding, 1 trapezoids); repair (0 none, 1
+///                  even-odd, 2 nonzero); Delaunay triangles, strips, certificate, trace (0, 1 each);
+///                  memory limit in bytes
+///   where          [4] out: as of sf_span_loops, for faults of the call as a whole
+///   result         out: arrays; counter-clockwise means, in space, as the outer ring runs
+///       0 uint32_t [3m]  triangles, counter-clockwise     5 double   [dimension * a] points that
+///       1 uint32_t [p+1] in triangles, where each               repair added, numbered after all others
+///                        polygon's begin                  6 uint32_t [2a] the edges each is on, by
+///       2 uint32_t       vertices of strips                     their first vertices
+///       3 uint32_t [s+1] in those, where each strip       7 uint32_t [4t] actions of flooding: action,
+///                        begins                                 ends of the active chain, triangles
+///       4 uint32_t [p+1] in strips, where each            8 uint32_t [6f] invalid polygons: polygon,
+///                        polygon's begin                        status, two rings with vertices as in
+///                                                               `where`, counted in the polygon
+///                                                         9 double   [dimension * f] where each fault
+///                                                               is, or NaN
+///     null unless the status is 0. An invalid polygon has no triangles.
+SF_API(sf_triangulate_polygons)
+SfStatus sf_triangulate_polygons(const double* positions, const uint32_t* ringStarts,
+                                 uint32_t ringCount, const uint32_t* polygonStarts,
+                                 uint32_t polygonCount, const double* points, uint32_t pointCount,
+                                 const double* settings, uint32_t* where, SfResult** result);
+
 #ifdef __cplusplus
 }
 #endif

@@ -5,6 +5,7 @@ export type ErrorCode =
   | 'no-loops'
   | 'bad-loops'
   | 'bad-starts'
+  | 'bad-polygon'
   | 'not-finite'
   | 'too-few-vertices'
   | 'repeated-vertex'
@@ -35,6 +36,10 @@ export interface ErrorPlace {
   /** The second loop and vertex, for errors about a pair, as `loops-intersect`. */
   readonly otherLoop?: number;
   readonly otherVertex?: number;
+  /** Index of the polygon among many; `loop` is then one of its rings, the outer one 0. */
+  readonly polygon?: number;
+  /** Where a fault of a polygon lies, as where two edges cross; rounded. */
+  readonly point?: readonly number[];
   /** Index of a face of a mesh. */
   readonly face?: number;
   /** Line of a text file, the first is 1. */
@@ -49,6 +54,8 @@ export class SoapfilmError extends Error implements ErrorPlace {
   readonly vertex?: number;
   readonly otherLoop?: number;
   readonly otherVertex?: number;
+  readonly polygon?: number;
+  readonly point?: readonly number[];
   readonly face?: number;
   readonly line?: number;
 

@@ -1,6 +1,7 @@
 // spanLoops: options checked and turned into the core's settings, the core's arrays into a Span.
 import { SoapfilmError } from './errors.js';
 import { toLoopSet } from './loopset.js';
+import { badOption, checkLimits } from './options.js';
 import { callCore, type Arrays } from './runtime.js';
 import type {
   CandidateList,
@@ -16,9 +17,6 @@ import type {
 // The orders of the enums Space and Objective in src/loops/span.h.
 const kSpaces = ['auto', 'all', 'delaunay', 'near', 'given'] as const;
 const kObjectives = ['sum', 'worst-dihedral'] as const;
-
-/** What the solver may use unless told otherwise; WebAssembly memory ends at 4 GiB. */
-const kDefaultMemoryBytes = 3 * 2 ** 30;
 
 /**
  * Spans one or more closed 3D loops with a triangulated surface of least cost: of all surfaces made
@@ -37,11 +35,9 @@ const kDefaultMemoryBytes = 3 * 2 ** 30;
  */
 export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | NoSpan {
   const input = toLoopSet(loops);
-  if (typeof (options as unknown) !== 'object' || (options as unknown) === null) {
-    throw new SoapfilmError('bad-option', 'The options must be an object');
-  }
+  const maxBytes = checkLimits(options);
   const { onProgress, onBest, maxSeconds, bestSoFar = false } = options;
-  checkLimits(options);
+  checkCalls(options);
   const list = typeof options.candidates === 'object' ? checkList(options.candidates) : undefined;
   const start = checkStart(options.startFrom);
   const started = performance.now();
@@ -57,7 +53,7 @@ export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | N
       list?.weights ?? null,
       start,
       start ? start.length / 3 : 0,
-      settings(options),
+      settings(options, maxBytes),
     ],
     kResultTypes,
     {
@@ -142,13 +138,10 @@ function noSpanReason(space: SpaceUsed): string {
   return wider[space];
 }
 
-function settings({
-  weights,
-  objective = 'sum',
-  candidates,
-  maxMemoryBytes,
-  bestSoFar = false,
-}: SpanOptions) {
+function settings(
+  { weights, objective = 'sum', candidates, bestSoFar = false }: SpanOptions,
+  maxBytes: number,
+) {
   const space = typeof candidates === 'object' ? 'given' : (candidates ?? 'auto');
   const spaceIndex = kSpaces.indexOf(space);
   const objectiveIndex = kObjectives.indexOf(objective);
@@ -165,14 +158,9 @@ function settings({
     dihedral,
     objectiveIndex,
     spaceIndex,
-    maxMemoryBytes ?? kDefaultMemoryBytes,
+    maxBytes,
     Number(bestSoFar),
   ]);
-}
-
-function badOption(name: string, choices: readonly string[], more = ''): SoapfilmError {
-  const list = choices.map((choice) => `'${choice}'`).join(', ');
-  return new SoapfilmError('bad-option', `\`${name}\` must be one of ${list}${more}`);
 }
 
 function checkWeights(weights: Required<Weights>): void {
@@ -186,12 +174,8 @@ function checkWeights(weights: Required<Weights>): void {
   }
 }
 
-function checkLimits(options: SpanOptions): void {
-  const { maxMemoryBytes, maxSeconds, bestSoFar } = options;
-  for (const [name, value] of Object.entries({ maxMemoryBytes, maxSeconds })) {
-    if (value === undefined || (typeof value === 'number' && value >= 0)) continue;
-    throw new SoapfilmError('bad-option', `\`${name}\` must be a number and not negative`);
-  }
+function checkCalls(options: SpanOptions): void {
+  const { bestSoFar } = options;
   if (bestSoFar !== undefined && typeof bestSoFar !== 'boolean') {
     throw new SoapfilmError('bad-option', '`bestSoFar` must be true or false');
   }

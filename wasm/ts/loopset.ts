@@ -68,9 +68,9 @@ function checkStarts({ positions, starts }: LoopSet): void {
   }
 }
 
-const isNumber = (value: unknown): boolean => typeof value === 'number';
+export const isNumber = (value: unknown): boolean => typeof value === 'number';
 
-const isList = (value: unknown): value is ArrayLike<unknown> =>
+export const isList = (value: unknown): value is ArrayLike<unknown> =>
   Array.isArray(value) || (ArrayBuffer.isView(value) && !(value instanceof DataView));
 
 function isLoopSet(value: unknown): value is LoopSet {

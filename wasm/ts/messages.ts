@@ -65,7 +65,7 @@ const table: Readonly<Record<number, readonly [ErrorCode, (place: ErrorPlace) =>
     'hole-outside',
     (place) =>
       place.otherLoop === undefined
-        ? `the hole ${at(place.loop, undefined)} is not inside the outer ring`
+        ? `${at(place.loop, undefined)}, a hole, is not inside the outer ring`
         : `the edge from ${first(place)}, of a hole, crosses or overlaps the edge from ` +
           `${second(place)} of the outer ring`,
   ],
@@ -77,7 +77,8 @@ const table: Readonly<Record<number, readonly [ErrorCode, (place: ErrorPlace) =>
   ],
   18: [
     'nested-hole',
-    (place) => `the hole ${at(place.loop, undefined)} lies inside the hole ${at(place.otherLoop, undefined)}`,
+    (place) =>
+      `${at(place.loop, undefined)}, a hole, lies inside ${at(place.otherLoop, undefined)}, another hole`,
   ],
   19: [
     'degenerate',
@@ -89,11 +90,18 @@ const table: Readonly<Record<number, readonly [ErrorCode, (place: ErrorPlace) =>
 };
 
 /**
- * The error for a failed call.
+ * The error for a failed call, or for one of the polygons of a call.
  * @param where `[4]` loop, vertex, other loop, other vertex, or 0xFFFFFFFF where there is none
+ * @param more what else is known of the place
  */
-export function statusError(status: number, where: Uint32Array): SoapfilmError {
+export function statusError(
+  status: number,
+  where: ArrayLike<number>,
+  more: ErrorPlace & { readonly noun?: string } = {},
+): SoapfilmError {
+  const { noun = 'loop', ...rest } = more;
   const place: ErrorPlace = {
+    ...rest,
     ...(where[0] !== kNone && { loop: where[0] }),
     ...(where[1] !== kNone && { vertex: where[1] }),
     ...(where[2] !== kNone && { otherLoop: where[2] }),
@@ -101,6 +109,6 @@ export function statusError(status: number, where: Uint32Array): SoapfilmError {
   };
   const entry = Object.hasOwn(table, status) ? table[status] : undefined;
   if (!entry) return new SoapfilmError('crashed', `the core ended with unknown status ${status}`);
-  const text = entry[1](place);
+  const text = entry[1](place).replace(/\bloop (?=\d)/g, `${noun} `);
   return new SoapfilmError(entry[0], text[0].toUpperCase() + text.slice(1), place);
 }

@@ -1,10 +1,15 @@
 // What the pool and its threads say to each other.
 import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
-import type { LoopsLike, NoSpan, Span, SpanOptions } from './types.js';
+import type { triangulateGeoJSON } from './geojson.js';
+import type { spanLoops } from './loops.js';
+import type { triangulatePolygon, triangulatePolygons } from './polygon.js';
 
-/** The functions that a thread can be asked for. */
+/** The functions that a thread can be asked for; each takes an input and options. */
 export interface Calls {
-  spanLoops: (loops: LoopsLike, options: SpanOptions) => Span | NoSpan;
+  readonly spanLoops: typeof spanLoops;
+  readonly triangulatePolygon: typeof triangulatePolygon;
+  readonly triangulatePolygons: typeof triangulatePolygons;
+  readonly triangulateGeoJSON: typeof triangulateGeoJSON;
 }
 
 /** To a thread: first of all the core, then one call at a time. */
@@ -39,14 +44,25 @@ export function packError(error: unknown): PlainError {
   if (!(error instanceof SoapfilmError)) {
     return { code: 'crashed', message: `The worker failed: ${String(error)}`, place: {} };
   }
-  const { code, message, loop, vertex, otherLoop, otherVertex, face, line } = error;
-  const place = { loop, vertex, otherLoop, otherVertex, face, line };
-  const known = Object.entries(place).filter(([, index]) => index !== undefined);
+  const { code, message, loop, vertex, otherLoop, otherVertex, polygon, point, face, line } = error;
+  const place = { loop, vertex, otherLoop, otherVertex, polygon, point, face, line };
+  const known = Object.entries(place).filter(([, value]) => value !== undefined);
   return { code, message, place: Object.fromEntries(known) };
 }
 
 export function unpackError({ code, message, place }: PlainError): SoapfilmError {
   return new SoapfilmError(code, message, place);
+}
+
+/** A result whose list of `errors`, if it has one, is plain data. */
+export function packErrors(result: object): object {
+  if (!('errors' in result)) return result;
+  return { ...result, errors: (result.errors as unknown[]).map(packError) };
+}
+
+/** The result that `packErrors` made plain. */
+export function unpackErrors<T extends { readonly errors: readonly unknown[] }>(result: T): T {
+  return { ...result, errors: result.errors.map((error) => unpackError(error as PlainError)) };
 }
 
 const isTypedArray = (value: unknown): value is Float64Array =>

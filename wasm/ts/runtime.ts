@@ -25,6 +25,8 @@ export interface Watch<T extends readonly ArrayType[]> {
   readonly onResult?: ((arrays: Arrays<T>) => void) | undefined;
   /** Whether the time limit asks the core to end, and then takes what that hands back. */
   readonly keepsResult?: boolean | undefined;
+  /** Whether the arrays handed back are views of the core's memory, good until its next call. */
+  readonly borrows?: boolean | undefined;
 }
 
 const kProgressMs = 30;
@@ -43,7 +45,7 @@ interface Core {
 
 /** The call under way. */
 interface Run {
-  readonly watch: Pick<Watch<[]>, 'onProgress' | 'maxSeconds' | 'keepsResult'>;
+  readonly watch: Pick<Watch<[]>, 'onProgress' | 'maxSeconds' | 'keepsResult' | 'borrows'>;
   /** Hands a result on, by its handle. */
   readonly hear: (handle: number) => void;
   readonly started: number;
@@ -56,6 +58,8 @@ interface Run {
 let module: WebAssembly.Module | undefined;
 let core: Core | undefined;
 let run: Run | undefined;
+/** A result whose arrays are lent out, freed by the next call. */
+let lent: { readonly core: Core; readonly handle: number } | undefined;
 
 /** The compiled core, or undefined before `startCore`. */
 export function compiledModule(): WebAssembly.Module | undefined {
@@ -144,7 +148,7 @@ function onHostResult(handle: number): void {
  * Calls an export `name(...args, where, result)` of the core and hands back its result arrays.
  *
  * @param types type of each result array, in the order of `include/soapfilm.h`
- * @returns copies of the arrays; `found` is false for status 1, "no triangulation"
+ * @returns copies of the arrays, unless borrowed; `found` is false for status 1, "no triangulation"
  * @throws SoapfilmError `not-loaded`; what the core's status says; `time-limit`; `out-of-memory`
  *   and `crashed`, after which the next call has a new instance; what `onProgress` throws
  */
@@ -167,6 +171,9 @@ export function callCore<const T extends readonly ArrayType[]>(
   const thisRun: Run = { watch, hear, started: now, told: now, fraction: 0 };
   run = thisRun;
   try {
+    // Of an instance that is gone, the views are all that is left.
+    if (lent && lent.core === core) core.find('sf_result_free')(lent.handle);
+    lent = undefined;
     core ??= open(new WebAssembly.Instance(module, imports(module)));
     return callIn(core, name, args, types, thisRun);
   } catch (error) {
@@ -214,9 +221,10 @@ function callIn<const T extends readonly ArrayType[]>(
   const status = entry(...values, where, result);
   const handle = new Uint32Array(memory.buffer, result, 1)[0];
   let arrays: Arrays<T> | undefined;
+  const { borrows = false } = thisRun.watch;
   try {
     if (status === kOk || status === kNotFound) {
-      arrays = readArrays(called, handle, types);
+      arrays = readArrays(called, handle, types, borrows);
     }
   } catch (error) {
     if (error instanceof WebAssembly.RuntimeError || error instanceof SoapfilmError) throw error;
@@ -224,7 +232,8 @@ function callIn<const T extends readonly ArrayType[]>(
       cause: error,
     });
   } finally {
-    if (handle !== 0) find('sf_result_free')(handle);
+    if (arrays && borrows) lent = { core: called, handle };
+    else if (handle !== 0) find('sf_result_free')(handle);
   }
   const culprits = new Uint32Array(memory.buffer, where, 4).slice();
   find('sf_free')(block);
@@ -237,16 +246,19 @@ function callIn<const T extends readonly ArrayType[]>(
   return { found: status === kOk, arrays };
 }
 
-/** Copies of the arrays of a result. */
+/** The arrays of a result: copies, or `borrowed` views. */
 function readArrays<const T extends readonly ArrayType[]>(
   { memory, find }: Core,
   handle: number,
   types: T,
+  borrowed = false,
 ): Arrays<T> {
   return types.map((type, i) => {
     const address = find('sf_result_data')(handle, i) >>> 0;
     const length = find('sf_result_length')(handle, i) >>> 0;
-    return length === 0 ? new type(0) : new type(memory.buffer, address, length).slice();
+    if (length === 0) return new type(0);
+    const view = new type(memory.buffer, address, length);
+    return borrowed ? view : view.slice();
   }) as unknown as Arrays<T>;
 }
 

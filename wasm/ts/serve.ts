@@ -1,7 +1,10 @@
 // A thread's side of the pool: runs the calls that it is sent, one after the other.
+import { triangulateGeoJSON } from './geojson.js';
 import { spanLoops } from './loops.js';
-import { buffersOf, packError, type Calls, type Reply, type Request } from './protocol.js';
+import { triangulatePolygon, triangulatePolygons } from './polygon.js';
+import { buffersOf, packError, packErrors, type Calls, type Reply, type Request } from './protocol.js';
 import { startCore } from './runtime.js';
+import type { SpanOptions } from './types.js';
 
 /** The end of the thread's channel, alike in browsers and Node. */
 export interface Port {
@@ -9,7 +12,7 @@ export interface Port {
   postMessage(message: unknown, transfer: ArrayBuffer[]): void;
 }
 
-const calls: Calls = { spanLoops };
+const calls: Calls = { spanLoops, triangulatePolygon, triangulatePolygons, triangulateGeoJSON };
 
 /** Answers the requests that come through `port`, as long as the thread lives. */
 export function serve(port: Port): void {
@@ -22,9 +25,9 @@ export function serve(port: Port): void {
       reply({ kind: 'ready' });
       return;
     }
-    const [loops, options] = request.input;
-    const value = calls[request.name](loops, {
-      ...options,
+    const [input, options] = request.input;
+    const call = calls[request.name] as (input: unknown, options: object) => object;
+    const listeners: Pick<SpanOptions, 'onProgress' | 'onBest'> = {
       ...(request.progress && {
         onProgress: (...values) => {
           reply({ kind: 'progress', values });
@@ -35,7 +38,9 @@ export function serve(port: Port): void {
           reply({ kind: 'best', value }, buffersOf(value));
         },
       }),
-    });
+    };
+    // Views of the core's memory cannot be sent.
+    const value = packErrors(call(input, { ...options, ...listeners, borrow: false }));
     reply({ kind: 'done', value }, buffersOf(value));
   };
   port.onmessage = ({ data }) => {

@@ -1,3 +1,5 @@
+import type { SoapfilmError } from './errors.js';
+
 /** k closed loops over n vertices. Loop c owns the vertices `starts[c]` to `starts[c + 1] - 1`. */
 export interface LoopSet {
   /** `[3n]` xyz, one length unit. */
@@ -145,6 +147,131 @@ export interface NoSpan {
   readonly reason: string;
   readonly candidates: SpaceUsed;
   readonly stats: SpanStats;
+}
+
+/**
+ * A polygon with holes: the first ring is the outer one, each of the others a hole. Rings may run
+ * either way, may repeat their first vertex at the end, and may touch but not cross.
+ */
+export interface PolygonSet {
+  /** `[dim · n]` xy, or xyz of points in a plane of any tilt. */
+  readonly positions: Float64Array;
+  /** `[r + 1]`, first 0, increasing, last n. */
+  readonly starts: Uint32Array;
+  /** Default 2. */
+  readonly dim?: 2 | 3;
+  /** `[dim · q]` isolated vertices inside the polygon, numbered from n on. */
+  readonly points?: Float64Array;
+}
+
+/** A polygon as earcut takes it. */
+export interface EarcutPolygon {
+  /** `[dim · n]` */
+  readonly coordinates: ArrayLike<number>;
+  /** Where each hole begins, in vertices. */
+  readonly holeIndices?: ArrayLike<number> | null;
+  /** Default 2. */
+  readonly dim?: 2 | 3;
+}
+
+/** A closed ring of `[x, y]` or `[x, y, z]`. */
+export type Ring = readonly (readonly number[])[];
+
+/** A polygon in any form: flat arrays, or one array of points a ring. */
+export type PolygonLike = PolygonSet | EarcutPolygon | readonly Ring[];
+
+/** Many polygons in flat arrays. */
+export interface PolygonBatch {
+  /** `[dim · n]` */
+  readonly positions: Float64Array;
+  /** `[r + 1]` in vertices, first 0, increasing, last n. */
+  readonly ringStarts: Uint32Array;
+  /** `[p + 1]` in rings, first 0, increasing, last r. */
+  readonly polygonStarts: Uint32Array;
+  /** Default 2. */
+  readonly dim?: 2 | 3;
+}
+
+export interface PolygonOptions {
+  /** `'flooding'` (default, Ronfard and Rossignac 1994) or `'trapezoids'` (Kumar 2000): better angles. */
+  readonly method?: 'flooding' | 'trapezoids';
+  /** `'strips'`: triangle strips as well. Default `'triangles'`. */
+  readonly output?: 'triangles' | 'strips';
+  /** `'delaunay'`: the constrained Delaunay triangulation. Default `'fast'`. */
+  readonly quality?: 'fast' | 'delaunay';
+  /** Whether the result is to be certified, by triangles of its complement too. Default `false`. */
+  readonly verify?: boolean;
+  /**
+   * What to make of an invalid polygon. `'none'` (default): an error; `'even-odd'`, `'nonzero'`: the
+   * points about which its rings wind an odd number of times, or any number but 0.
+   */
+  readonly repair?: 'none' | 'even-odd' | 'nonzero';
+  /** Whether to record the actions of flooding, for one polygon. Default `false`. */
+  readonly trace?: boolean;
+  /**
+   * Whether the typed arrays of the result may be views of the core's memory, which spares a copy: they
+   * are good until soapfilm is called again. Default `false`. A worker's results are always one's own.
+   */
+  readonly borrow?: boolean;
+  /** Memory that the core may use. Default 3 GiB. */
+  readonly maxMemoryBytes?: number;
+  /** Seconds after which the call ends with `time-limit`. Default: none. */
+  readonly maxSeconds?: number;
+}
+
+/** Options for many polygons. */
+export interface PolygonsOptions extends PolygonOptions {
+  /** Whether invalid polygons get no triangles and an entry in `errors`. Default `false`: they throw. */
+  readonly skipInvalid?: boolean;
+}
+
+/** An action of flooding; sections 3 and 4 of the paper. */
+export interface FloodStep {
+  readonly action: 'start' | 'raise' | 'fill' | 'bridge' | 'spill' | 'jump';
+  /** The vertices at the ends of the active chain after it. */
+  readonly left: number;
+  readonly right: number;
+  /** How many triangles there are after it. */
+  readonly triangles: number;
+}
+
+export interface PolygonTriangulation {
+  /**
+   * `[3m]` vertices, numbered as in the input; counter-clockwise, in space as the outer ring runs.
+   * m = n + 2 holes - 2 where rings do not touch.
+   */
+  readonly triangles: Uint32Array;
+  /** With `output: 'strips'`: strip i is `strips[stripStarts[i]]` up to `strips[stripStarts[i + 1] - 1]`. */
+  readonly strips: Uint32Array;
+  readonly stripStarts: Uint32Array;
+  /** `[dim · a]` points that repair added, numbered after all others. */
+  readonly added: Float64Array;
+  /** `[2a]` the two edges that each is on, by their first vertices. */
+  readonly addedOn: Uint32Array;
+  /** With `trace`. */
+  readonly trace: readonly FloodStep[];
+}
+
+/** The triangles of many polygons; vertices are numbered through all of them. */
+export interface PolygonsTriangulation extends PolygonTriangulation {
+  /** `[p + 1]` where each polygon's triangles begin, counted in triangles. */
+  readonly triangleStarts: Uint32Array;
+  /** `[p + 1]` where each polygon's strips begin. */
+  readonly polygonStrips: Uint32Array;
+  /** With `skipInvalid`: what is wrong with each invalid polygon, by its `polygon`. */
+  readonly errors: readonly SoapfilmError[];
+}
+
+/** A GeoJSON object, as far as it matters here. */
+export interface GeoJSONLike {
+  readonly type: string;
+}
+
+export interface GeoJSONTriangulation extends PolygonsTriangulation {
+  /** `[2n]` the vertices of all polygons in their order in the input; altitudes are left out. */
+  readonly positions: Float64Array;
+  /** `[f + 1]` where each feature's polygons begin; a geometry alone is one feature. */
+  readonly featureStarts: Uint32Array;
 }
 
 export interface LoadOptions {

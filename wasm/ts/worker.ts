@@ -3,7 +3,23 @@
 import { SoapfilmError } from './errors.js';
 import { compile } from './load.js';
 import { Pool } from './pool.js';
-import type { LoadOptions, LoopsLike, NoSpan, Span, SpanOptions } from './types.js';
+import { unpackErrors, type Calls } from './protocol.js';
+import type {
+  GeoJSONLike,
+  GeoJSONTriangulation,
+  LoadOptions,
+  LoopsLike,
+  NoSpan,
+  PolygonBatch,
+  PolygonLike,
+  PolygonOptions,
+  PolygonsOptions,
+  PolygonsTriangulation,
+  PolygonTriangulation,
+  Ring,
+  Span,
+  SpanOptions,
+} from './types.js';
 
 export { SoapfilmError } from './errors.js';
 
@@ -22,13 +38,25 @@ export interface CallOptions {
 }
 
 /**
- * A pool of threads. Calls start in order as threads become free. Input is copied when the call is
+ * A pool of threads. Its functions are like those of the package's main entry. Calls start in order as threads become free. Input is copied when the call is
  * made; results are the caller's own. Errors are those of the synchronous functions, and
  * `cancelled`, `disposed`, `crashed`; after any of them but `disposed` the next call works.
  */
 export interface Film {
-  /** Like the function of the package's main entry; its listeners are called in this thread. */
+  /** Its listeners are called in this thread. */
   spanLoops(loops: LoopsLike, options?: SpanOptions & CallOptions): Promise<Span | NoSpan>;
+  triangulatePolygon(
+    polygon: PolygonLike,
+    options?: PolygonOptions & CallOptions,
+  ): Promise<PolygonTriangulation>;
+  triangulatePolygons(
+    polygons: PolygonBatch | readonly (readonly Ring[])[],
+    options?: PolygonsOptions & CallOptions,
+  ): Promise<PolygonsTriangulation>;
+  triangulateGeoJSON(
+    geojson: GeoJSONLike,
+    options?: PolygonsOptions & CallOptions,
+  ): Promise<GeoJSONTriangulation>;
   /** Ends all threads; calls under way, and later ones, are rejected with `disposed`. */
   dispose(): void;
   [Symbol.dispose](): void;
@@ -52,6 +80,13 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
   const dispose = (): void => {
     pool.dispose();
   };
+  const several =
+    <T extends PolygonsTriangulation>(name: 'triangulatePolygons' | 'triangulateGeoJSON') =>
+    async (input: Parameters<Calls[typeof name]>[0], options: PolygonsOptions & CallOptions = {}) => {
+      const { signal, ...rest } = options;
+      const call = [input, rest] as Parameters<Calls[typeof name]>;
+      return unpackErrors((await pool.call(name, call, { signal })) as T);
+    };
   return {
     async spanLoops(loops, { signal, onProgress, onBest, ...rest } = {}) {
       // What is proven after the last surface was heard of holds for it as well.
@@ -75,6 +110,12 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
       if (!span.found || span.optimal || span.lowerBound >= bound) return span;
       return { ...span, lowerBound: Math.min(bound, span.cost) };
     },
+    triangulatePolygon(polygon, { signal, ...options } = {}) {
+      const result = pool.call('triangulatePolygon', [polygon, options], { signal });
+      return result as Promise<PolygonTriangulation>;
+    },
+    triangulatePolygons: several<PolygonsTriangulation>('triangulatePolygons'),
+    triangulateGeoJSON: several<GeoJSONTriangulation>('triangulateGeoJSON'),
     dispose,
     [kDispose]: dispose,
   };

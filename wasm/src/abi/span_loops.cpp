@@ -1,22 +1,11 @@
 // sf_span_loops: validates what has no meaning to the core, calls it, hands back.
-#include <cmath>
-
+#include "abi/host_work.h"
 #include "abi/result.h"
-#include "base/work.h"
 #include "loops/span.h"
 
 namespace {
 
 static_assert(sizeof(sf::Vec3) == 3 * sizeof(double), "positions are read as Vec3");
-
-bool reportToHost(void*, double fraction, double bestCost, double lowerBound) {
-  return sf_host_progress(fraction, bestCost, lowerBound) != 0;
-}
-
-/// Whether `value` is one of 0, 1, ..., last.
-bool isChoice(double value, int last) {
-  return value >= 0 && value <= last && value == std::floor(value);
-}
 
 sf::Outcome checkStarts(const uint32_t* starts, uint32_t loopCount) {
   if (loopCount == 0) return {sf::Status::NoLoops};
@@ -71,8 +60,8 @@ extern "C" SfStatus sf_span_loops(const double* positions, const uint32_t* start
   *result = nullptr;
   sf::Outcome outcome = checkStarts(starts, loopCount);
   const double maxBytes = settings[5];
-  if (outcome.ok() && (!isChoice(settings[3], 1) || !isChoice(settings[4], 4) || !(maxBytes >= 0) ||
-                       !isChoice(settings[6], 1)))
+  if (outcome.ok() && (!sf::isChoice(settings[3], 1) || !sf::isChoice(settings[4], 4) ||
+                       !(maxBytes >= 0) || !sf::isChoice(settings[6], 1)))
     outcome = {sf::Status::BadOption};
   if (outcome.ok()) {
     const size_t n = starts[loopCount];
@@ -87,8 +76,7 @@ extern "C" SfStatus sf_span_loops(const double* positions, const uint32_t* start
     if (triangleWeights) options.triangleWeights = {triangleWeights, triangleCount};
     if (start) options.start = {start, 3 * size_t(startCount)};
     options.bestSoFar = settings[6] == 1;
-    const double most = double(size_t(-1));
-    sf::Work work(maxBytes < most ? size_t(maxBytes) : size_t(-1), reportToHost, nullptr);
+    sf::Work work = sf::hostWork(maxBytes);
     options.onBest = tellHost;
     options.user = &work;
     const sf::LoopSet loops({reinterpret_cast<const sf::Vec3*>(positions), n},
@@ -100,9 +88,6 @@ extern "C" SfStatus sf_span_loops(const double* positions, const uint32_t* start
       *result = pack(std::move(span), work.peak());
     }
   }
-  where[0] = outcome.loop;
-  where[1] = outcome.vertex;
-  where[2] = outcome.otherLoop;
-  where[3] = outcome.otherVertex;
+  sf::tellWhere(outcome, where);
   return SfStatus(outcome.status);
 }

@@ -1,0 +1,31 @@
+// What calls of the C ABI have in common: settings checked, budgets, and where faults lie.
+#pragma once
+#include <cmath>
+
+#include "base/status.h"
+#include "base/work.h"
+#include "soapfilm.h"
+
+namespace sf {
+
+/// Whether `value` is one of 0, 1, ..., last.
+inline bool isChoice(double value, int last) {
+  return value >= 0 && value <= last && value == std::floor(value);
+}
+
+/// A budget of at most `maxBytes`, not NaN, that reports to the host.
+inline Work hostWork(double maxBytes) {
+  const auto report = [](void*, double fraction, double bestCost, double lowerBound) {
+    return sf_host_progress(fraction, bestCost, lowerBound) != 0;
+  };
+  const double most = double(size_t(-1));
+  return Work(maxBytes < most ? size_t(maxBytes) : size_t(-1), report, nullptr);
+}
+
+/// Writes the places of an outcome to `where` [4].
+inline void tellWhere(const Outcome& outcome, uint32_t* where) {
+  where[0] = outcome.loop, where[1] = outcome.vertex;
+  where[2] = outcome.otherLoop, where[3] = outcome.otherVertex;
+}
+
+}  // namespace sf
