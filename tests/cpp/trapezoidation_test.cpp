@@ -213,7 +213,7 @@ TEST_CASE("trapezoidation: with enough flips the triangles are constrained Delau
     const Input input = randomInput(random);
     const Sight sight = lookAround(input.polygon, input.islands);
     TriangleMesh mesh;
-    mesh.at = sight.linked.at;
+    mesh.at = mesh.metric = sight.linked.at;
     mesh.corners = triangulate(sight, 1000, false);
     Work work;
     REQUIRE(findTwins(mesh.corners, uint32_t(mesh.at.size()), work, mesh.twins));

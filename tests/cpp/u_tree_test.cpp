@@ -24,7 +24,9 @@ std::vector<uint32_t> triangulate(const Ring& chain, bool left) {
   std::vector<uint32_t> triangles(3 * chain.size());
   UTree tree;
   const std::vector<uint32_t> all = numbers(uint32_t(chain.size()));
-  uint32_t* end = tree.triangulate(&chain[0].x, all, left, triangles.data());
+  std::vector<Point2> at;
+  for (const Point p : chain) at.push_back({p.x, p.y});
+  uint32_t* end = tree.triangulate(at, all, left, triangles.data());
   triangles.resize(size_t(end - triangles.data()));
   return triangles;
 }

@@ -119,6 +119,27 @@ bool findUniMonotonePolygons(const LinkedPolygon& linked, const Visibility& seen
   return work.tick(2 * size);
 }
 
+/// Whether the points are within the range where angles can be computed; if not, `scaled` is what
+/// they are after scaling, the small ones then zero.
+bool scaleMetric(ArrayView<const Point2> at, std::vector<Point2>& scaled) {
+  double largest = 0, least = 1;
+  for (const Point2 p : at)
+    for (const double m : {std::fabs(p.x), std::fabs(p.y)}) {
+      if (m > largest) largest = m;
+      if (m < least && m > 0) least = m;
+    }
+  if (largest <= 0x1p60 && least >= 0x1p-150) return true;
+  int exponent;
+  std::frexp(largest, &exponent);
+  const auto scale = [&](double x) {
+    const double s = std::ldexp(x, -exponent);
+    return std::fabs(s) < 0x1p-200 ? 0.0 : s;
+  };
+  scaled.clear();
+  for (const Point2 p : at) scaled.push_back({scale(p.x), scale(p.y)});
+  return false;
+}
+
 /// Flips the edge between a triangle with three neighbours and one with no other, an ear, where the two
 /// that arise are not much thinner: one end of a strip fewer.
 void TrapezoidTriangulator::removeEars() {
@@ -132,10 +153,10 @@ void TrapezoidTriangulator::removeEars() {
     if (g == kNone || neighbours(h / 3) != 1 || neighbours(g / 3) != 3) continue;
     const uint32_t a = m.from(h), b = m.to(h), c = m.apex(h), d = m.apex(g);
     if (m.orient(a, d, c) <= 0 || m.orient(b, c, d) <= 0) continue;
-    const double now =
-        std::fmax(thinness(m.at[a], m.at[b], m.at[c]), thinness(m.at[b], m.at[a], m.at[d]));
-    const double then =
-        std::fmax(thinness(m.at[a], m.at[d], m.at[c]), thinness(m.at[b], m.at[c], m.at[d]));
+    const double now = std::fmax(thinness(m.metric[a], m.metric[b], m.metric[c]),
+                                 thinness(m.metric[b], m.metric[a], m.metric[d]));
+    const double then = std::fmax(thinness(m.metric[a], m.metric[d], m.metric[c]),
+                                  thinness(m.metric[b], m.metric[c], m.metric[d]));
     if (then <= kThinnerForStrips * now) m.flip(h);
   }
 }
@@ -220,12 +241,13 @@ bool TrapezoidTriangulator::triangulate(const LinkedPolygon& linked, const Visib
   for (uint32_t e = 0; e + 1 < starts.size(); ++e) {
     const uint32_t size = starts[e + 1] - starts[e];
     if (size == 0) continue;
-    out = tree_.triangulate(&linked.at[0].x, chain.slice(starts[e], size), (e & 1) == 1, out);
+    out = tree_.triangulate(linked.at, chain.slice(starts[e], size), (e & 1) == 1, out);
     if (!work.tick(16 * size)) return false;
   }
   corners.resize(size_t(out - corners.data()));
 
-  mesh_.at = linked.at;
+  mesh_.at = mesh_.metric = linked.at;
+  if (!scaleMetric(linked.at, scaled_)) mesh_.metric = scaled_;
   mesh_.unused.clear();
   if (!charge.add(4 * uint64_t(corners.size()))) return false;
   const uint32_t budget = uint32_t(flips * double(corners.size() / 3));

@@ -80,6 +80,7 @@ class TrapezoidTriangulator {
   TriangleMesh mesh_;
   std::vector<uint32_t> edges_;
   std::vector<uint32_t> islands_;
+  std::vector<Point2> scaled_;
 };
 
 }  // namespace sf

@@ -2,6 +2,7 @@
 
 #include "base/charge.h"
 #include "base/predicates.h"
+#include "polygon/turn.h"
 
 namespace sf {
 
@@ -38,14 +39,18 @@ bool findTwins(ArrayView<const uint32_t> corners, uint32_t vertexCount, Work& wo
 }
 
 int TriangleMesh::orient(uint32_t a, uint32_t b, uint32_t c) const {
-  return orient2d(at[a].x, at[a].y, at[b].x, at[b].y, at[c].x, at[c].y);
+  const double t = turn(at[a], at[b], at[c]);
+  return t > 0 ? 1 : t < 0 ? -1 : 0;
 }
 
 bool TriangleMesh::isIllegal(uint32_t h) const {
   const uint32_t g = twins[h];
   if (g == kNone) return false;
-  const Point2 a = at[from(h)], b = at[to(h)], c = at[apex(h)], d = at[apex(g)];
-  return incircle(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y) > 0;
+  const uint32_t v[4] = {from(h), to(h), apex(h), apex(g)};
+  const Point2 a = metric[v[0]], b = metric[v[1]], c = metric[v[2]], d = metric[v[3]];
+  if (incircle(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y) <= 0) return false;
+  // Implied where `metric` is `at`; elsewhere what it says of angles may be all wrong.
+  return orient(v[0], v[3], v[2]) > 0 && orient(v[1], v[2], v[3]) > 0;
 }
 
 uint32_t TriangleMesh::create(uint32_t a, uint32_t b, uint32_t c) {

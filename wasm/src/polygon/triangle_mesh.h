@@ -27,11 +27,12 @@ inline uint32_t prevInTriangle(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; 
 bool findTwins(ArrayView<const uint32_t> corners, uint32_t vertexCount, Work& work,
                std::vector<uint32_t>& twins);
 
-/// Triangles of positive area over points within the range of base/predicates.
+/// Triangles of positive area.
 struct TriangleMesh {
-  ArrayView<const Point2> at;     // [n] positions
-  std::vector<uint32_t> corners;  // [3m]
-  std::vector<uint32_t> twins;    // [3m]
+  ArrayView<const Point2> at;      // [n] positions
+  ArrayView<const Point2> metric;  // [n] the same within the range of base/predicates: for angles
+  std::vector<uint32_t> corners;   // [3m]
+  std::vector<uint32_t> twins;     // [3m]
   // [n] for each vertex a half-edge that starts there, whose edge is kept whatever flips and splits
   // do elsewhere; or empty.
   std::vector<uint32_t> edgeFrom;
@@ -55,8 +56,8 @@ struct TriangleMesh {
     if (g != kNone) twins[g] = h;
   }
 
-  /// Whether the apex across h lies inside the circle through the triangle of h; false if there is
-  /// none. If so the two triangles form a strictly convex quadrilateral.
+  /// Whether the apex across h lies inside the circle through the triangle of h, and the two triangles
+  /// form a strictly convex quadrilateral; false if there is no twin.
   bool isIllegal(uint32_t h) const;
   /// Replaces h by the other diagonal of its quadrilateral, which has to be strictly convex. With
   /// g the twin of h, next(h) and next(g) become the new diagonal; h and g, which keep their first

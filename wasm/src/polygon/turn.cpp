@@ -1,6 +1,7 @@
 #include "polygon/turn.h"
 
 #include <cstdint>
+#include <initializer_list>
 
 #include "base/predicates.h"
 
@@ -62,16 +63,32 @@ class ProductSum {
   int64_t digits_[136] = {};
 };
 
-}  // namespace
-
-double turnExactly(Point2 a, Point2 b, Point2 c) {
+bool inRangeOfPredicates(std::initializer_list<double> numbers) {
   double largest = 0, least = 1;
-  for (const double x : {a.x, a.y, b.x, b.y, c.x, c.y}) {
+  for (const double x : numbers) {
     const double m = std::fabs(x);
     if (m > largest) largest = m;
     if (m < least && m > 0) least = m;
   }
-  if (largest < 0x1p300 && least > 0x1p-400) return orient2d(a.x, a.y, b.x, b.y, c.x, c.y);
+  return largest < 0x1p300 && least > 0x1p-400;
+}
+
+}  // namespace
+
+int turnBetween(Point2 a, Point2 b, Point2 c, Point2 d) {
+  if (inRangeOfPredicates({a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y}))
+    return turn2d(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y);
+  ProductSum sum;
+  sum.add(b.x, d.y, 1), sum.add(b.y, d.x, -1);
+  sum.add(b.y, c.x, 1), sum.add(b.x, c.y, -1);
+  sum.add(a.y, d.x, 1), sum.add(a.x, d.y, -1);
+  sum.add(a.x, c.y, 1), sum.add(a.y, c.x, -1);
+  return sum.sign();
+}
+
+double turnExactly(Point2 a, Point2 b, Point2 c) {
+  if (inRangeOfPredicates({a.x, a.y, b.x, b.y, c.x, c.y}))
+    return orient2d(a.x, a.y, b.x, b.y, c.x, c.y);
   ProductSum sum;
   sum.add(a.x, b.y, 1), sum.add(a.y, b.x, -1);
   sum.add(b.x, c.y, 1), sum.add(b.y, c.x, -1);

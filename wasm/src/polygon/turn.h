@@ -22,4 +22,7 @@ inline double turn(Point2 a, Point2 b, Point2 c) {
   return turnExactly(a, b, c);
 }
 
+/// +1 if the direction from c to d is left of that from a to b, -1 right, 0 parallel. Exact alike.
+int turnBetween(Point2 a, Point2 b, Point2 c, Point2 d);
+
 }  // namespace sf

@@ -2,25 +2,24 @@
 
 #include <cmath>
 
-#include "base/predicates.h"
+#include "polygon/turn.h"
 
 namespace sf {
 
 /// The tree of the vertices 1 .. n-2 of the chain, each no nearer to the base than its parent and of
 /// equally near ones the lower the parent; its root is left in stack_[0].
-void UTree::build(const double* positions, ArrayView<const uint32_t> chain, bool left) {
+void UTree::build(ArrayView<const Point2> at, ArrayView<const uint32_t> chain, bool left) {
   const uint32_t last = uint32_t(chain.size()) - 1;
-  const double* a = positions + 2 * size_t(chain[0]);
-  const double* b = positions + 2 * size_t(chain[last]);
-  const double dx = b[0] - a[0], dy = b[1] - a[1];
+  const Point2 a = at[chain[0]], b = at[chain[last]];
+  const double dx = b.x - a.x, dy = b.y - a.y;
   distance_.resize(chain.size());
   above_.assign(chain.size(), 0);
   below_.assign(chain.size(), 0);
   stack_.clear();
   double widest = std::fabs(dx), highest = std::fabs(dy);
   for (uint32_t i = 1; i < last; ++i) {
-    const double* p = positions + 2 * size_t(chain[i]);
-    const double x = p[0] - a[0], y = p[1] - a[1], d = dx * y - dy * x;
+    const Point2 p = at[chain[i]];
+    const double x = p.x - a.x, y = p.y - a.y, d = dx * y - dy * x;
     distance_[i] = left ? d : -d;
     widest = std::fmax(widest, std::fabs(x));
     highest = std::fmax(highest, std::fabs(y));
@@ -29,9 +28,7 @@ void UTree::build(const double* positions, ArrayView<const uint32_t> chain, bool
   const double bound = 16 * 0x1p-53 * widest * highest + 1e-290;
   const auto nearer = [&](uint32_t i, uint32_t j) {
     if (std::fabs(distance_[i] - distance_[j]) > bound) return distance_[i] < distance_[j];
-    const double* p = positions + 2 * size_t(chain[i]);
-    const double* q = positions + 2 * size_t(chain[j]);
-    return turn2d(a[0], a[1], b[0], b[1], p[0], p[1], q[0], q[1]) == (left ? 1 : -1);
+    return turnBetween(a, b, at[chain[i]], at[chain[j]]) == (left ? 1 : -1);
   };
   for (uint32_t i = 1; i < last; ++i) {
     uint32_t under = 0;
@@ -45,7 +42,7 @@ void UTree::build(const double* positions, ArrayView<const uint32_t> chain, bool
   }
 }
 
-uint32_t* UTree::triangulate(const double* positions, ArrayView<const uint32_t> chain, bool left,
+uint32_t* UTree::triangulate(ArrayView<const Point2> at, ArrayView<const uint32_t> chain, bool left,
                              uint32_t* out) {
   const uint32_t last = uint32_t(chain.size()) - 1;
   const auto write = [&](uint32_t bottom, uint32_t middle, uint32_t top) {
@@ -58,7 +55,7 @@ uint32_t* UTree::triangulate(const double* positions, ArrayView<const uint32_t> 
     write(0, 1, 2);
     return out;
   }
-  build(positions, chain, left);
+  build(at, chain, left);
   parts_.assign(1, {0, last, stack_[0]});
   while (!parts_.empty()) {
     const Part p = parts_.back();

@@ -22,7 +22,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/array_view.h"
+#include "polygon/polygon.h"
 
 namespace sf {
 
@@ -31,16 +31,16 @@ class UTree {
  public:
   /// Writes the triangles, counter-clockwise, to out[0 .. 3 (chain.size() - 2)), strips in one piece;
   /// returns the end of what it wrote. O(n) time, exact.
-  ///   positions  [2n] within the range of base/predicates
-  ///   chain      indices of vertices, the ends of the base first and last; at least 2
-  ///   left       whether the chain lies to the left of the base from its first end to its last
+  ///   at     [n] positions, of any magnitude up to 1e150
+  ///   chain  indices of vertices, the ends of the base first and last; at least 2
+  ///   left   whether the chain lies to the left of the base from its first end to its last
   /// A vertex of the chain on the base itself makes one triangle of no area, with both ends of the
   /// base or with another such vertex and one end; all others have positive area.
-  uint32_t* triangulate(const double* positions, ArrayView<const uint32_t> chain, bool left,
+  uint32_t* triangulate(ArrayView<const Point2> at, ArrayView<const uint32_t> chain, bool left,
                         uint32_t* out);
 
  private:
-  void build(const double* positions, ArrayView<const uint32_t> chain, bool left);
+  void build(ArrayView<const Point2> at, ArrayView<const uint32_t> chain, bool left);
 
   struct Part {
     uint32_t bottom, top, root;  // numbers in the chain
