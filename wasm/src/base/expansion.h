@@ -5,7 +5,7 @@
 // predicates", sec. 2: Two-Sum, Two-Product, Fast-Expansion-Sum, Scale-Expansion, Compress.
 // Differs: one bounded container for all sizes, kept short by Compress after every operation.
 //
-// To be included by predicates.cpp alone, which forbids the compiler to fuse or reorder operations.
+// To be included where the compiler may neither fuse nor reorder operations, by source files alone.
 #pragma once
 #include <cmath>
 
@@ -56,6 +56,12 @@ class Expansion {
   }
 
   int sign() const { return size_ == 0 ? 0 : c_[size_ - 1] > 0 ? 1 : -1; }
+  /// The sum as a double, off by less than a unit in its last place.
+  double value() const {
+    double sum = 0;
+    for (int i = 0; i < size_; ++i) sum += c_[i];
+    return sum;
+  }
 
   friend Expansion operator+(const Expansion& a, const Expansion& b) {
     Expansion r;
