@@ -8,6 +8,18 @@ namespace {
 constexpr uint32_t kPatienceOfAscent = 12;  // steps without progress before they become shorter
 constexpr double kShortestStride = 1e-7;    // of the bound, at which the ascent ends
 
+/// At most how far rounding has lifted a bound. Large terms cancel in a cheap walk only if some of
+/// them are negative: those, and the bound itself, say how large partial sums can be.
+///   terms, vertices  how many are added up
+double liftByRounding(double bound, double terms, double vertices, double price, double angleWeight,
+                      const std::vector<double>& third, const std::vector<double>& multiplier) {
+  double most = std::max(std::fabs(price), 0.5 * kPi * angleWeight);
+  for (size_t corner = 0; corner < multiplier.size(); ++corner)
+    most = std::max(most, -(third[corner / 3] + multiplier[corner]));
+  return std::numeric_limits<double>::epsilon() * (2 * terms + vertices) *
+         (std::fabs(bound) + terms * most);
+}
+
 }  // namespace
 
 FanBound::FanBound(const LoopSet& loops, const CandidateSet& set,
@@ -210,9 +222,10 @@ double FanBound::evaluate() {
   const double bound = shareOut();
   for (const uint32_t corner : usedCorners_) used_[corner] = 0;
   usedCorners_.clear();
-  if (bound < kInfinity)
-    for (size_t i = 0; i < vertices_.size(); ++i) traceWalk(vertices_[i], length_[i]);
-  return bound;
+  if (bound == kInfinity) return bound;
+  for (size_t i = 0; i < vertices_.size(); ++i) traceWalk(vertices_[i], length_[i]);
+  return bound - liftByRounding(bound, 3 * triangleTotal_, double(vertices_.size()), price_,
+                                measure_.dihedralWeight(), third_, multiplier_);
 }
 
 /// How the corners of each triangle disagree.
@@ -236,7 +249,7 @@ bool FanBound::ascend(uint32_t steps, double target) {
         0.1 * triangleTotal_ * ((count ? sum / double(count) : 0) + measure_.dihedralWeight());
   }
   for (uint32_t i = 0; i < steps; ++i) {
-    const double bound = evaluate();
+    double bound = evaluate();
     if (!work_.going()) return false;
     if (bound == kInfinity) {
       best_ = kInfinity;
@@ -256,7 +269,8 @@ bool FanBound::ascend(uint32_t steps, double target) {
       stride_ *= 0.6;
       multiplier_ = bestMultiplier_;
       std::fill(direction_.begin(), direction_.end(), 0.0);
-      if (evaluate() == kInfinity || !work_.going()) return work_.going();
+      bound = evaluate();
+      if (bound == kInfinity || !work_.going()) return work_.going();
     }
     gradient();
     double gg = 0, gd = 0, dd = 0;
@@ -266,8 +280,9 @@ bool FanBound::ascend(uint32_t steps, double target) {
       dd += direction_[j] * direction_[j];
     }
     if (gg < 1e-12 || best_ >= target || stride_ < kShortestStride * std::fabs(best_)) return true;
-    // Deflection (Camerini, Fratta, Maffioli 1975): no step undoes the last one.
-    const double keep = gd < 0 ? -1.5 * gd / dd : 0;
+    // Deflection (Camerini, Fratta, Maffioli 1975): no step undoes the last one. Where that would
+    // turn it against the gradient, the last one went too far, and the gradient alone serves.
+    const double keep = gd < 0 && 1.5 * gd * gd < gg * dd ? -1.5 * gd / dd : 0;
     dd = 0;
     for (size_t j = 0; j < gradient_.size(); ++j) {
       direction_[j] = gradient_[j] + keep * direction_[j];
