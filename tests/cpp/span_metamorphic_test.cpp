@@ -11,25 +11,6 @@ using namespace sftest;
 
 namespace {
 
-/// Rebuilds a problem whose vertex i was vertex `origin[i]`: normals and candidates follow.
-/// `turned[i]` says that the edge after vertex i was the edge before vertex origin[i], reversed.
-Problem renumbered(const Problem& before, const Curves& curves, const std::vector<uint32_t>& origin,
-                   const std::vector<char>& turned) {
-  Problem after = before;
-  after.curves = curves;
-  sf::LoopSet loops = loopSet(before.curves);
-  std::vector<uint32_t> now(origin.size());
-  for (uint32_t i = 0; i < origin.size(); ++i) now[origin[i]] = i;
-  for (uint32_t& v : after.triangles) v = now[v];
-  if (before.normals.empty()) return after;
-  for (uint32_t i = 0; i < origin.size(); ++i) {
-    uint32_t edge = turned[i] ? loops.previous(origin[i]) : origin[i];
-    for (int j = 0; j < 3; ++j)
-      after.normals[3 * i + j] = (turned[i] ? -1 : 1) * before.normals[3 * edge + j];
-  }
-  return after;
-}
-
 /// Applies `order(curve, c)`, which gives the new order of the vertices of a loop, to all loops.
 template <class Order>
 Problem reordered(const Problem& before, bool turned, Order order) {

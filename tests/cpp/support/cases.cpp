@@ -140,6 +140,45 @@ std::string Problem::text() const {
   return result;
 }
 
+Problem renumbered(const Problem& before, const Curves& curves, const std::vector<uint32_t>& origin,
+                   const std::vector<char>& turned) {
+  Problem after = before;
+  after.curves = curves;
+  sf::LoopSet loops = loopSet(before.curves);
+  std::vector<uint32_t> now(origin.size());
+  for (uint32_t i = 0; i < origin.size(); ++i) now[origin[i]] = i;
+  for (uint32_t& v : after.triangles) v = now[v];
+  if (before.normals.empty()) return after;
+  for (uint32_t i = 0; i < origin.size(); ++i) {
+    uint32_t edge = turned[i] ? loops.previous(origin[i]) : origin[i];
+    for (int j = 0; j < 3; ++j)
+      after.normals[3 * i + j] = (turned[i] ? -1 : 1) * before.normals[3 * edge + j];
+  }
+  return after;
+}
+
+Problem shuffled(const Problem& before, Random& random) {
+  const sf::LoopSet loops = loopSet(before.curves);
+  std::vector<uint32_t> loopOrder;
+  for (uint32_t c = 0; c < loops.loopCount(); ++c)
+    loopOrder.insert(loopOrder.begin() + random.below(c + 1), c);
+  Curves curves;
+  std::vector<uint32_t> origin;
+  std::vector<char> turned;
+  for (const uint32_t c : loopOrder) {
+    const uint32_t n = loops.size(c), shift = random.below(n);
+    const bool reversed = random.chance(0.5);
+    curves.emplace_back();
+    for (uint32_t i = 0; i < n; ++i) {
+      const uint32_t at = (shift + (reversed ? n - i : i)) % n;
+      curves.back().push_back(before.curves[c][at]);
+      origin.push_back(loops.first(c) + at);
+      turned.push_back(reversed);
+    }
+  }
+  return renumbered(before, curves, origin, turned);
+}
+
 Answer solve(const Problem& problem) {
   Answer answer;
   sf::Work work;

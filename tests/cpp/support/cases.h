@@ -22,6 +22,13 @@ struct Problem {
   std::string text() const;
 };
 
+/// Rebuilds a problem whose vertex i was vertex `origin[i]`: normals and candidates follow.
+/// `turned[i]` says that the edge after vertex i was the edge before vertex origin[i], reversed.
+Problem renumbered(const Problem& before, const Curves& curves, const std::vector<uint32_t>& origin,
+                   const std::vector<char>& turned);
+/// The same problem with its loops in another order, each begun anywhere and perhaps reversed.
+Problem shuffled(const Problem& before, Random& random);
+
 struct Answer {
   sf::Outcome outcome;
   sf::Span span;

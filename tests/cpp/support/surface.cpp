@@ -191,6 +191,20 @@ std::string ownWeights(const sf::SpanOptions& options, const sf::Span& span, dou
   return "";
 }
 
+/// Turns each triangle to agree with an earlier one that it shares an edge with.
+void windAlike(std::vector<uint32_t>& triangles) {
+  std::set<Edge> passed;
+  for (size_t i = 0; i < triangles.size(); i += 3) {
+    uint32_t* t = &triangles[i];
+    for (int j = 0; j < 3; ++j)
+      if (passed.count({t[j], t[(j + 1) % 3]})) {
+        std::swap(t[1], t[2]);
+        break;
+      }
+    for (int j = 0; j < 3; ++j) passed.insert({t[j], t[(j + 1) % 3]});
+  }
+}
+
 }  // namespace
 
 std::string surfaceFault(const Boundary& boundary, const std::vector<uint32_t>& triangles) {
@@ -273,6 +287,30 @@ sf::SpanTerms measureSurface(const std::vector<Vec3>& positions, const Boundary&
                      normalOf(positions[a], positions[b], positions[apex])));
     }
   return terms;
+}
+
+sf::Span spanOf(const sf::LoopSet& loops, const sf::SpanOptions& options,
+                const std::vector<uint32_t>& triangles) {
+  sf::Span span;
+  span.found = true;
+  span.space = options.space;
+  span.positions.assign(loops.positions().begin(), loops.positions().end());
+  span.starts.assign(loops.starts().begin(), loops.starts().end());
+  span.loopVertices.resize(loops.vertexCount());
+  std::iota(span.loopVertices.begin(), span.loopVertices.end(), 0u);
+  span.triangles = triangles;
+  windAlike(span.triangles);
+  span.order.resize(triangles.size() / 3);
+  std::iota(span.order.begin(), span.order.end(), 0u);
+  const Boundary boundary{span.starts, span.loopVertices};
+  if (!surfaceFault(boundary, span.triangles).empty()) return span;
+  span.terms = measureSurface(span.positions, boundary, span.triangles,
+                              {options.boundaryNormals.begin(), options.boundaryNormals.end()});
+  ownWeights(options, span, span.terms.own);
+  span.cost = options.objective == sf::Objective::WorstDihedral ? span.terms.worstDihedral
+                                                                : weightedSum(options, span.terms);
+  span.lowerBound = span.cost;
+  return span;
 }
 
 double weightedSum(const sf::SpanOptions& options, const sf::SpanTerms& terms) {

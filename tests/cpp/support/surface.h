@@ -37,6 +37,12 @@ sf::SpanTerms measureSurface(const std::vector<sf::Vec3>& positions, const Bound
 std::string spanFault(const sf::LoopSet& loops, const sf::SpanOptions& options,
                       const sf::Span& span);
 
+/// A span for spanFault from a list of candidates over all loop vertices, wound anyhow and in the order
+/// of splitting: wound alike, its terms, cost and bound measured. Triangles that cannot be wound alike
+/// stay as they are.
+sf::Span spanOf(const sf::LoopSet& loops, const sf::SpanOptions& options,
+                const std::vector<uint32_t>& triangles);
+
 /// The weighted sum of a span's terms, own weights included.
 double weightedSum(const sf::SpanOptions& options, const sf::SpanTerms& terms);
 

@@ -5,9 +5,6 @@
 namespace sf {
 namespace {
 
-/// Products of inner and outer counts below which all pairs are the fastest, measured.
-constexpr size_t kFewPairs = 1500, kFewPairsCapped = 20000;
-
 /// The opposite direction, in [-pi, pi].
 double opposite(double theta) { return theta > 0 ? theta - kPi : theta + kPi; }
 
@@ -18,7 +15,7 @@ void AngularTransform::apply(const double* innerTheta, const double* base, size_
   const bool plainSum = !measure_.isWorst() && measure_.cap() >= kPi;
   if (plainSum && measure_.dihedralWeight() == 0) {
     std::fill(result, result + outer, inner ? *std::min_element(base, base + inner) : kInfinity);
-  } else if (inner * outer <= (plainSum ? kFewPairs : kFewPairsCapped)) {
+  } else if (inner * outer <= (plainSum ? fewPairs : fewPairsCapped)) {
     allPairs(innerTheta, base, inner, outerTheta, outer, result);
   } else if (plainSum) {
     buckets(innerTheta, base, inner, outerTheta, outer, result);

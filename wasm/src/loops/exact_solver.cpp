@@ -6,9 +6,6 @@
 namespace sf {
 namespace {
 
-/// Rounds of lazily found critical edges before all edges are tracked.
-constexpr int kLazyRounds = 12;
-
 uint32_t apexOf(const CandidateSet& set, uint32_t t, uint32_t edge) {
   const uint32_t* v = &set.triangles[3 * size_t(t)];
   return v[0] + v[1] + v[2] - set.edgeVertices[2 * size_t(edge)] -
@@ -36,10 +33,11 @@ void traceSegment(const Pass& pass, ClosedSegment segment, uint32_t accessSlot, 
   }
 }
 
-ExactSolver::ExactSolver(const Pass& pass, LowerBound& bound, uint32_t rootVertex)
+ExactSolver::ExactSolver(const Pass& pass, LowerBound& bound, uint32_t rootVertex, int lazyRounds)
     : pass_(pass),
       bound_(bound),
       rootVertex_(rootVertex),
+      lazyRounds_(lazyRounds),
       holeWords_((pass.loops.loopCount() + 31) / 32),
       domains_(pass.loops),
       table_(pass.work),
@@ -47,7 +45,7 @@ ExactSolver::ExactSolver(const Pass& pass, LowerBound& bound, uint32_t rootVerte
 
 bool ExactSolver::solve(double& cost, SplitOrder& order) {
   for (int round = 0;; ++round) {
-    if (round == kLazyRounds) allCritical_ = true;
+    if (round == lazyRounds_) allCritical_ = true;
     if (!solveOnce(cost)) return false;
     order.clear();
     if (cost == kInfinity) return true;

@@ -26,11 +26,16 @@ using SplitOrder = std::vector<uint32_t>;
 /// at the root). Explicit stack, O(triangles times degree).
 void traceSegment(const Pass& pass, ClosedSegment segment, uint32_t accessSlot, SplitOrder& order);
 
+/// Rounds of lazily found critical edges before all edges are tracked.
+constexpr int kLazyRounds = 12;
+
 class ExactSolver {
  public:
   /// `bound` is of the same pass and computed from the same root, the edge from `rootVertex` to
   /// the next vertex of its loop.
-  ExactSolver(const Pass& pass, LowerBound& bound, uint32_t rootVertex);
+  ///   lazyRounds  0: all edges are tracked from the start; what it is changes the time, not the cost
+  ExactSolver(const Pass& pass, LowerBound& bound, uint32_t rootVertex,
+              int lazyRounds = kLazyRounds);
 
   /// The least cost, infinity if there is no surface; false when the work ended.
   bool solve(double& cost, SplitOrder& order);
@@ -113,6 +118,7 @@ class ExactSolver {
   const Pass& pass_;
   LowerBound& bound_;
   uint32_t rootVertex_;
+  int lazyRounds_;
   uint32_t holeWords_;
   Domains domains_;
   DomainTable table_;
