@@ -1,0 +1,644 @@
+#include "polygon/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/charge.h"
+#include "polygon/hilbert_order.h"
+#include "polygon/turn.h"
+
+namespace sf {
+namespace {
+
+constexpr double kLargest = 1e150;
+// Flips after an edit: more than this are needed only where the triangles were bad before.
+constexpr uint32_t kFlips = 1000;
+constexpr uint8_t kUnknown = 2;
+// Strips longer than twice this are not joined: not worth walking along.
+constexpr int kLongestStrip = 200;
+
+bool isFinite(Point2 p) { return std::fabs(p.x) <= kLargest && std::fabs(p.y) <= kLargest; }
+
+}  // namespace
+
+void PolygonSession::clear() {
+  mesh_ = {};
+  ring_.clear(), ringSizes_.clear(), unused_.clear(), inside_.clear(), slots_.clear();
+  triangleIn_.clear(), triangles_.clear(), changedSlots_.clear();
+}
+
+/// Numbers and links the vertices; the mesh has no triangles yet.
+Outcome PolygonSession::readRings(const PolygonView& polygon) {
+  const uint32_t n = uint32_t(polygon.positions.size() / 2);
+  const uint32_t islands = uint32_t(polygon.points.size() / 2);
+  const ArrayView<const uint32_t> starts = polygon.starts;
+  Outcome outcome;
+  outcome.status = Status::BadStarts;
+  if (starts.size() < 2 || starts[0] != 0 || starts[starts.size() - 1] != n) return outcome;
+  for (size_t r = 0; r + 1 < starts.size(); ++r)
+    if (starts[r + 1] < starts[r]) return outcome;
+
+  const uint32_t rings = uint32_t(starts.size()) - 1;
+  mesh_.at.assign(kShift, {0, 0});
+  ring_.assign(kShift, kNone);
+  for (uint32_t v = 0; v < n; ++v)
+    mesh_.at.push_back({polygon.positions[2 * v], polygon.positions[2 * v + 1]});
+  for (uint32_t i = 0; i < islands; ++i)
+    mesh_.at.push_back({polygon.points[2 * i], polygon.points[2 * i + 1]});
+  mesh_.next.assign(mesh_.at.size(), kNone), mesh_.prev.assign(mesh_.at.size(), kNone);
+  ring_.resize(kShift + n, kNone);
+  ring_.resize(mesh_.at.size(), kIsland);
+  for (uint32_t r = 0; r < rings; ++r) {
+    const uint32_t first = kShift + starts[r];
+    uint32_t end = kShift + starts[r + 1];
+    for (uint32_t v = first; v < end; ++v)
+      if (!isFinite(mesh_.at[v])) return {Status::NotFinite, r, v - first};
+    if (end - first > 1 && mesh_.at[first] == mesh_.at[end - 1]) unused_.push_back(--end);
+    if (end - first < 3) return {Status::DegeneratePolygon, r};
+    for (uint32_t v = first; v < end; ++v) {
+      ring_[v] = r;
+      link(v, v + 1 < end ? v + 1 : first);
+    }
+    ringSizes_.push_back(end - first);
+  }
+  for (uint32_t i = 0; i < islands; ++i)
+    if (!isFinite(mesh_.at[kShift + n + i])) return {Status::NotFinite, rings + i, 0};
+  return {};
+}
+
+Outcome PolygonSession::start(const PolygonView& polygon, Work& work) {
+  clear();
+  Charge charge(work);
+  const uint64_t vertices = (polygon.positions.size() + polygon.points.size()) / 2;
+  Outcome outcome;
+  if (!charge.add(300 * vertices)) {
+    outcome.status = work.status();
+    return outcome;
+  }
+  outcome = readRings(polygon);
+  if (outcome.ok()) {
+    outcome = build(work);
+    // From the session's numbers to vertices of rings.
+    const uint32_t n = uint32_t(polygon.positions.size() / 2);
+    const uint32_t rings = uint32_t(polygon.starts.size()) - 1;
+    const auto inRing = [&](uint32_t& loop, uint32_t& vertex) {
+      if (vertex == kNone) return;
+      const bool island = vertex >= n;
+      loop = island ? rings + vertex - n : ring_[kShift + vertex];
+      vertex = island ? 0 : vertex - polygon.starts[loop];
+    };
+    inRing(outcome.loop, outcome.vertex);
+    inRing(outcome.otherLoop, outcome.otherVertex);
+  }
+  if (!outcome.ok()) clear();
+  return outcome;
+}
+
+/// Triangulates anew what the rings' links and the islands say.
+Outcome PolygonSession::build(Work& work) {
+  std::vector<uint32_t> vertices, edges = mesh_.next;
+  double largest = 0;
+  for (uint32_t v = kShift; v < mesh_.at.size(); ++v) {
+    if (ring_[v] == kNone) continue;
+    vertices.push_back(v);
+    largest = std::max({largest, std::fabs(mesh_.at[v].x), std::fabs(mesh_.at[v].y)});
+  }
+  int exponent = 0;
+  if (largest > 0) std::frexp(largest, &exponent);
+  side_ = std::ldexp(4, exponent);
+  mesh_.reset(side_, exponent, mesh_.at.size() - kShift);
+  mesh_.next.assign(mesh_.at.size(), kNone), mesh_.prev.assign(mesh_.at.size(), kNone);
+  for (const uint32_t v : vertices) mesh_.setPosition(v, mesh_.at[v]);
+
+  const auto ended = [&](uint32_t units) {
+    return work.tick(units) ? Outcome{} : Outcome{work.status()};
+  };
+  sortAlongHilbertCurve(mesh_.mesh.metric, vertices);
+  uint32_t near = 0;
+  Obstacle obstacle;
+  for (const uint32_t v : vertices) {
+    if (!mesh_.insertPoint(v, near, obstacle)) return refusal(v, obstacle);
+    mesh_.legalize(kNone);
+    mesh_.forgetChanges();
+    near = v;
+    if (!work.tick(2000)) return ended(0);
+  }
+  for (const uint32_t v : vertices) {
+    if (ring_[v] == kIsland) continue;
+    if (!mesh_.insertEdge(v, edges[v], obstacle)) return refusal(v, obstacle);
+    link(v, edges[v]);
+    mesh_.legalizeChanged(kFlips);
+    mesh_.forgetChanges();
+    if (!work.tick(300)) return ended(0);
+  }
+  near_ = near;
+  const Outcome outcome = findInsideAnew();
+  if (!outcome.ok()) return outcome;
+
+  for (uint32_t t = 0; t < mesh_.mesh.triangleCount(); ++t) mesh_.touch(t);
+  slots_.assign(mesh_.mesh.triangleCount(), kNone);
+  triangleIn_.clear(), triangles_.clear();
+  updateSlots();
+  std::vector<uint32_t> twins = mesh_.mesh.twins;
+  for (uint32_t h = 0; h < twins.size(); ++h)
+    if (twins[h] != kNone && (inside_[h / 3] == 0 || mesh_.isFixed(h))) twins[h] = kNone;
+  linkStrips(twins, work, mesh_.links);
+  mesh_.forgetChanges();
+  return ended(0);
+}
+
+/// What is wrong, with the vertices concerned.
+Outcome PolygonSession::about(Status status, uint32_t v, uint32_t w) const {
+  Outcome outcome;
+  outcome.status = status;
+  const auto name = [&](uint32_t u, uint32_t& loop, uint32_t& vertex) {
+    if (u == kNone) return;
+    vertex = u - kShift;
+    if (ring_[u] != kIsland) loop = ring_[u];
+  };
+  name(v, outcome.loop, outcome.vertex);
+  name(w, outcome.otherLoop, outcome.otherVertex);
+  return outcome;
+}
+
+Outcome PolygonSession::refusal(uint32_t edited, const Obstacle& obstacle) const {
+  const uint32_t other = obstacle.vertex != kNone ? obstacle.vertex : obstacle.edge;
+  if (obstacle.vertex != kNone && mesh_.at[edited] == mesh_.at[other])
+    return about(Status::RepeatedVertex, edited, other);
+  const uint32_t r = ring_[edited], q = ring_[other];
+  Status status = Status::HolesOverlap;
+  if (r == kIsland || q == kIsland)
+    status = Status::HoleOutside;
+  else if (r == q)
+    status = Status::SelfIntersecting;
+  else if (r == 0 || q == 0)
+    status = Status::HoleOutside;
+  return about(status, edited, other);
+}
+
+bool PolygonSession::withinBox(Point2 p) const {
+  return std::fabs(p.x) < side_ && std::fabs(p.y) < side_;
+}
+
+/// Whether an edit may begin: p is a position, and the memory in use is within the limit.
+Outcome PolygonSession::admit(uint32_t v, Point2 p, Work& work) const {
+  if (v != kNone && !isVertex(v)) return Outcome{Status::BadOption};
+  if (!isFinite(p)) return about(Status::NotFinite, v == kNone ? kNone : v + kShift, kNone);
+  Charge charge(work);
+  if (!charge.add(300 * uint64_t(mesh_.at.size()))) return Outcome{work.status()};
+  return {};
+}
+
+uint32_t PolygonSession::numberFor(uint32_t ring) {
+  uint32_t v = uint32_t(ring_.size());
+  if (unused_.empty())
+    ring_.push_back(ring);
+  else
+    v = unused_.back(), unused_.pop_back();
+  ring_[v] = ring;
+  return v;
+}
+
+void PolygonSession::giveUp(uint32_t v) {
+  ring_[v] = kNone;
+  unused_.push_back(v);
+}
+
+/// Makes v a vertex at p, between a and b unless these are kNone. If that fails nothing of it is left.
+bool PolygonSession::place(uint32_t v, Point2 p, uint32_t a, uint32_t b, Obstacle& obstacle) {
+  mesh_.setPosition(v, p);
+  if (a != kNone) near_ = a;
+  if (!mesh_.insertPoint(v, near_, obstacle)) return false;
+  if (a == kNone) near_ = v;
+  if (a == kNone) return true;
+  bool done = mesh_.insertEdge(a, v, obstacle);
+  if (done) {
+    link(a, v);
+    done = mesh_.insertEdge(v, b, obstacle);
+    if (done)
+      link(v, b);
+    else
+      unlink(a, v);
+  }
+  if (!done) mesh_.removePoint(v);
+  return done;
+}
+
+void PolygonSession::takeOut(uint32_t v) {
+  if (mesh_.next[v] != kNone) {
+    unlink(mesh_.prev[v], v);
+    unlink(v, mesh_.next[v]);
+  }
+  near_ = mesh_.mesh.to(mesh_.mesh.edgeFrom[v]);
+  mesh_.removePoint(v);
+}
+
+/// For an edit that leaves the box: v, already linked to its ring, goes to p, and all is built anew.
+Outcome PolygonSession::rebuildWith(uint32_t v, Point2 p, Work& work) {
+  mesh_.setPosition(v, p);
+  const Outcome outcome = build(work);
+  if (outcome.ok()) {
+    changedSlots_.resize(triangles_.size() / 3);
+    for (uint32_t s = 0; s < changedSlots_.size(); ++s) changedSlots_[s] = s;
+  }
+  return outcome;
+}
+
+/// Builds anew what was valid before.
+void PolygonSession::restore() {
+  Work unlimited;
+  const Outcome outcome = build(unlimited);
+  SF_ASSERT(outcome.ok());
+  (void)outcome;
+}
+
+Outcome PolygonSession::insertVertex(uint32_t before, Point2 p, Work& work, uint32_t& v) {
+  Outcome outcome = admit(before, p, work);
+  if (!outcome.ok()) return outcome;
+  const uint32_t a = before + kShift, b = mesh_.next[a];
+  if (b == kNone) return Outcome{Status::BadOption};
+  const uint32_t u = numberFor(ring_[a]);
+  const uint32_t size = ++ringSizes_[ring_[a]];
+  SF_ASSERT(size > 3);
+  (void)size;
+  unlink(a, b);
+  if (!withinBox(p)) {
+    std::vector<uint32_t> next = mesh_.next, prev = mesh_.prev;
+    mesh_.setPosition(u, p);
+    link(a, u), link(u, b);
+    outcome = rebuildWith(u, p, work);
+    if (!outcome.ok()) {
+      mesh_.next = next, mesh_.prev = prev;
+      mesh_.next.resize(mesh_.at.size(), kNone), mesh_.prev.resize(mesh_.at.size(), kNone);
+      link(a, b);
+      --ringSizes_[ring_[a]];
+      giveUp(u);
+      restore();
+    }
+    v = u - kShift;
+    return outcome;
+  }
+  Obstacle obstacle;
+  mesh_.forgetChanges();
+  bool placed = place(u, p, a, b, obstacle);
+  outcome = placed ? finish(a) : refusal(a, obstacle);
+  if (obstacle.vertex != kNone && mesh_.at[u] == mesh_.at[obstacle.vertex])
+    outcome.status = Status::RepeatedVertex;
+  if (!outcome.ok()) {
+    if (placed) takeOut(u);
+    const bool restored = mesh_.insertEdge(a, b, obstacle);
+    SF_ASSERT(restored);
+    (void)restored;
+    link(a, b);
+    --ringSizes_[ring_[a]];
+    giveUp(u);
+    finish(a);
+  }
+  v = u - kShift;
+  return outcome;
+}
+
+Outcome PolygonSession::insertIsland(Point2 p, Work& work, uint32_t& v) {
+  Outcome outcome = admit(kNone, p, work);
+  if (!outcome.ok()) return outcome;
+  if (!withinBox(p) || ringSizes_.empty()) return Outcome{Status::HoleOutside};
+  const uint32_t u = numberFor(kIsland);
+  Obstacle obstacle;
+  mesh_.forgetChanges();
+  const bool placed = place(u, p, kNone, kNone, obstacle);
+  outcome = placed ? finish(u) : refusal(u, obstacle);
+  outcome.vertex = kNone;
+  if (!outcome.ok()) {
+    if (placed) takeOut(u);
+    giveUp(u);
+    finish(u);
+  }
+  v = u - kShift;
+  return outcome;
+}
+
+Outcome PolygonSession::deleteVertex(uint32_t vertex, Work& work) {
+  Outcome outcome = admit(vertex, {0, 0}, work);
+  if (!outcome.ok()) return outcome;
+  const uint32_t v = vertex + kShift, a = mesh_.prev[v], b = mesh_.next[v];
+  const bool island = ring_[v] == kIsland;
+  if (!island && ringSizes_[ring_[v]] <= 3) return about(Status::DegeneratePolygon, v, kNone);
+  Obstacle obstacle;
+  mesh_.forgetChanges();
+  const Point2 p = mesh_.at[v];
+  takeOut(v);
+  const bool joined = island || mesh_.insertEdge(a, b, obstacle);
+  if (joined && !island) link(a, b);
+  outcome = joined ? finish(v) : refusal(v, obstacle);
+  if (outcome.ok()) {
+    if (!island) --ringSizes_[ring_[v]];
+    giveUp(v);
+    return outcome;
+  }
+  if (joined && !island) unlink(a, b);
+  const bool restored = place(v, p, a, b, obstacle);
+  SF_ASSERT(restored);
+  (void)restored;
+  finish(v);
+  return outcome;
+}
+
+Outcome PolygonSession::moveVertex(uint32_t vertex, Point2 p, Work& work) {
+  Outcome outcome = admit(vertex, p, work);
+  if (!outcome.ok()) return outcome;
+  const uint32_t v = vertex + kShift, a = mesh_.prev[v], b = mesh_.next[v];
+  const Point2 old = mesh_.at[v];
+  mesh_.forgetChanges();
+  if (mesh_.shiftPoint(v, p)) return finish(v);
+  if (!withinBox(p)) {
+    if (ring_[v] == kIsland) return about(Status::HoleOutside, v, kNone);
+    const std::vector<uint32_t> next = mesh_.next, prev = mesh_.prev;
+    outcome = rebuildWith(v, p, work);
+    if (!outcome.ok()) {
+      mesh_.next = next, mesh_.prev = prev;
+      mesh_.setPosition(v, old);
+      restore();
+    }
+    return outcome;
+  }
+  Obstacle obstacle;
+  takeOut(v);
+  const bool placed = place(v, p, a, b, obstacle);
+  outcome = placed ? finish(v) : refusal(v, obstacle);
+  if (outcome.ok()) return outcome;
+  if (placed) takeOut(v);
+  const bool restored = place(v, old, a, b, obstacle);
+  SF_ASSERT(restored);
+  (void)restored;
+  finish(v);
+  return outcome;
+}
+
+/// Tells for each changed triangle whether it lies inside, from those around. False if there is a
+/// contradiction, near vertex `culprit`.
+bool PolygonSession::settleInside(uint32_t& culprit) {
+  const TriangleMesh& mesh = mesh_.mesh;
+  inside_.resize(mesh.triangleCount(), 0);
+  for (const uint32_t t : mesh_.changed) inside_[t] = mesh.inUse(t) ? kUnknown : 0;
+  const auto across = [&](uint32_t h) {
+    return mesh.twins[h] == kNone ? uint8_t(0) : inside_[mesh.twins[h] / 3];
+  };
+  stack_.clear();
+  for (const uint32_t t : mesh_.changed)
+    for (uint32_t h = 3 * t; h < 3 * t + 3 && inside_[t] == kUnknown; ++h)
+      if (across(h) != kUnknown) {
+        inside_[t] = across(h) ^ uint8_t(mesh_.isFixed(h));
+        stack_.push_back(t);
+        while (!stack_.empty()) {
+          const uint32_t s = stack_.back();
+          stack_.pop_back();
+          for (uint32_t g = 3 * s; g < 3 * s + 3; ++g)
+            if (across(g) == kUnknown) {
+              inside_[mesh.twins[g] / 3] = inside_[s] ^ uint8_t(mesh_.isFixed(g));
+              stack_.push_back(mesh.twins[g] / 3);
+            }
+        }
+      }
+  for (const uint32_t t : mesh_.changed)
+    for (uint32_t h = 3 * t; h < 3 * t + 3 && mesh.inUse(t); ++h) {
+      const uint32_t a = mesh.from(h);
+      const bool fixed = mesh_.isFixed(h), along = mesh_.next[a] == mesh.to(h);
+      culprit = a;
+      if ((inside_[t] ^ across(h)) != uint8_t(fixed)) return false;
+      if (fixed && inside_[t] != uint8_t(along)) return false;
+      if (ring_[a] == kIsland && inside_[t] == 0) return false;
+    }
+  return true;
+}
+
+/// The same for all triangles, from the box inwards. Checks how rings lie in each other, and turns
+/// their links so that the polygon lies to the left.
+Outcome PolygonSession::findInsideAnew() {
+  const TriangleMesh& mesh = mesh_.mesh;
+  // Of each triangle the innermost ring around it, kNone for none, and of each ring likewise.
+  constexpr uint32_t kUnseen = kNone - 1;
+  std::vector<uint32_t> around(mesh.triangleCount(), kUnseen), later;
+  std::vector<uint32_t> parent(ringSizes_.size(), kUnseen);
+  later.push_back(mesh.edgeFrom[0]);
+  while (!later.empty()) {
+    // One region at a time, so that rings are met from their outer sides first.
+    const uint32_t entry = later.back();
+    later.pop_back();
+    if (around[entry / 3] != kUnseen) continue;
+    const bool outermost = entry / 3 == mesh.edgeFrom[0] / 3;
+    const uint32_t region = outermost ? kNone : ring_[mesh.from(entry)];
+    around[entry / 3] = region;
+    stack_.assign(1, entry / 3);
+    while (!stack_.empty()) {
+      const uint32_t t = stack_.back();
+      stack_.pop_back();
+      for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        const uint32_t g = mesh.twins[h];
+        if (g == kNone || around[g / 3] != kUnseen) continue;
+        if (mesh_.isFixed(h)) {
+          const uint32_t ring = ring_[mesh.from(h)];
+          if (parent[ring] == kUnseen) parent[ring] = region;
+          later.push_back(g);
+        } else {
+          around[g / 3] = region;
+          stack_.push_back(g / 3);
+        }
+      }
+    }
+  }
+  for (uint32_t r = 1; r < parent.size(); ++r) {
+    Outcome outcome{Status::HoleOutside, r};
+    if (parent[r] == kNone) return outcome;
+    if (parent[r] == 0) continue;
+    outcome.status = Status::NestedHole;
+    outcome.otherLoop = parent[r];
+    return outcome;
+  }
+  for (uint32_t v = kShift; v < ring_.size(); ++v)
+    if (ring_[v] == kIsland && mesh_.contains(v) && around[mesh.edgeFrom[v] / 3] != 0)
+      return about(Status::HoleOutside, v, kNone);
+
+  inside_.resize(mesh.triangleCount(), 0);
+  for (uint32_t t = 0; t < mesh.triangleCount(); ++t) {
+    const uint8_t inside = mesh.inUse(t) && around[t] == 0;
+    if (inside != inside_[t]) mesh_.touch(t);
+    inside_[t] = inside;
+  }
+  orientRings();
+  return {};
+}
+
+void PolygonSession::orientRings() {
+  std::vector<bool> done(ringSizes_.size(), false);
+  for (uint32_t v = kShift; v < ring_.size(); ++v) {
+    if (mesh_.next[v] == kNone || done[ring_[v]]) continue;
+    done[ring_[v]] = true;
+    uint32_t h = mesh_.mesh.edgeFrom[v];
+    while (mesh_.mesh.to(h) != mesh_.next[v]) h = mesh_.around(h);
+    if (inside_[h / 3] == 1) continue;
+    uint32_t u = v;
+    do {
+      std::swap(mesh_.next[u], mesh_.prev[u]);
+      u = mesh_.next[u];
+    } while (u != v);
+  }
+}
+
+/// Ends an edit: flips, finds what is inside, and hands the changes on; or says why it is refused.
+Outcome PolygonSession::finish(uint32_t edited) {
+  mesh_.legalizeChanged(kFlips);
+  uint32_t culprit;
+  if (!settleInside(culprit)) {
+    // Labels are looked for in all triangles; those that the edit left with none are not to be kept.
+    Outcome outcome = findInsideAnew();
+    if (!outcome.ok()) {
+      const Status status = outcome.status;
+      outcome = about(status, edited, culprit);
+      return outcome;
+    }
+  }
+  slots_.resize(mesh_.mesh.triangleCount(), kNone);
+  updateSlots();
+  joinStrips();
+  return {};
+}
+
+void PolygonSession::writeSlot(uint32_t slot) {
+  for (uint32_t k = 0; k < 3; ++k)
+    triangles_[3 * slot + k] = mesh_.mesh.corners[3 * triangleIn_[slot] + k] - kShift;
+  changedSlots_.push_back(slot);
+}
+
+void PolygonSession::updateSlots() {
+  changedSlots_.clear();
+  std::vector<uint32_t>& freed = stack_;
+  freed.clear();
+  for (const uint32_t t : mesh_.changed)
+    if (slots_[t] != kNone && inside_[t] == 0) {
+      freed.push_back(slots_[t]);
+      slots_[t] = kNone;
+    }
+  for (const uint32_t t : mesh_.changed) {
+    if (inside_[t] == 0) continue;
+    if (slots_[t] == kNone && !freed.empty()) {
+      slots_[t] = freed.back();
+      freed.pop_back();
+    } else if (slots_[t] == kNone) {
+      slots_[t] = uint32_t(triangleIn_.size());
+      triangleIn_.push_back(t);
+      triangles_.resize(triangles_.size() + 3);
+    }
+    triangleIn_[slots_[t]] = t;
+    writeSlot(slots_[t]);
+  }
+  // The last triangles move to where some are missing.
+  std::sort(freed.begin(), freed.end());
+  while (!freed.empty()) {
+    const uint32_t slot = freed.back(), last = uint32_t(triangleIn_.size()) - 1;
+    freed.pop_back();
+    if (slot != last) {
+      triangleIn_[slot] = triangleIn_[last];
+      slots_[triangleIn_[slot]] = slot;
+      writeSlot(slot);
+    }
+    triangleIn_.pop_back();
+    triangles_.resize(3 * triangleIn_.size());
+  }
+  std::sort(changedSlots_.begin(), changedSlots_.end());
+  changedSlots_.erase(std::unique(changedSlots_.begin(), changedSlots_.end()), changedSlots_.end());
+  while (!changedSlots_.empty() && changedSlots_.back() >= triangleIn_.size())
+    changedSlots_.pop_back();
+}
+
+/// Whether the strips that end in the triangles on both sides of h are one.
+bool PolygonSession::onOnePath(uint32_t h) const {
+  const std::vector<uint32_t>& twins = mesh_.mesh.twins;
+  const uint32_t ends[2] = {h / 3, twins[h] / 3};
+  uint32_t out[2] = {mesh_.links.only(ends[0]), mesh_.links.only(ends[1])};
+  uint32_t at[2] = {ends[0], ends[1]};
+  for (int step = 0; step < kLongestStrip; ++step)
+    for (int i = 0; i < 2; ++i) {
+      if (out[i] == kNone) return at[i] == ends[1 - i];
+      at[i] = twins[out[i]] / 3;
+      out[i] = mesh_.links.exit(twins[out[i]]);
+    }
+  return true;  // perhaps not; but then both are long
+}
+
+void PolygonSession::joinStrips() {
+  const TriangleMesh& mesh = mesh_.mesh;
+  StripLinks& links = mesh_.links;
+  links.bits.resize(mesh.triangleCount(), 0);
+  for (uint32_t allowed = 0; allowed < 2; ++allowed)
+    for (const uint32_t t : mesh_.changed) {
+      if (inside_[t] == 0) continue;
+      for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        const uint32_t g = mesh.twins[h];
+        if (g == kNone || inside_[g / 3] == 0 || links.linked(h) || mesh_.isFixed(h)) continue;
+        if (links.count(t) > 1 || links.count(g / 3) > 1) continue;
+        if (links.swapsToJoin(mesh.twins, h) > allowed || onOnePath(h)) continue;
+        links.link(h, g);
+      }
+    }
+}
+
+ArrayView<const double> PolygonSession::positions() const {
+  if (mesh_.at.size() <= kShift) return {};
+  return {&mesh_.at[kShift].x, 2 * (mesh_.at.size() - kShift)};
+}
+
+bool PolygonSession::isVertex(uint32_t v) const {
+  return v < ring_.size() && v + kShift < ring_.size() && ring_[v + kShift] != kNone;
+}
+
+uint32_t PolygonSession::nextInRing(uint32_t v) const {
+  const uint32_t next = mesh_.next[v + kShift];
+  return next == kNone ? kNone : next - kShift;
+}
+
+bool PolygonSession::strips(Work& work, std::vector<uint32_t>& vertices,
+                            std::vector<uint32_t>& starts) const {
+  if (!writeStrips(mesh_.mesh.corners, mesh_.mesh.twins, mesh_.links, triangleIn_, work, vertices,
+                   starts))
+    return false;
+  for (uint32_t& v : vertices) v -= kShift;
+  return true;
+}
+
+bool PolygonSession::certify() const {
+  const TriangleMesh& mesh = mesh_.mesh;
+  uint32_t border = 0, inside = 0, fixed = 0, edges = 0;
+  for (uint32_t t = 0; t < mesh.triangleCount(); ++t) {
+    if (!mesh.inUse(t)) continue;
+    if (mesh.orient(mesh.corners[3 * t], mesh.corners[3 * t + 1], mesh.corners[3 * t + 2]) <= 0)
+      return false;
+    inside += inside_[t];
+    for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      const uint32_t g = mesh.twins[h], a = mesh.from(h), b = mesh.to(h);
+      border += g == kNone;
+      if (g == kNone ? a >= kShift || b >= kShift || inside_[t] != 0
+                     : mesh.twins[g] != h || mesh.from(g) != b || mesh.to(g) != a)
+        return false;
+      if (ring_[a] == kIsland && inside_[t] == 0) return false;
+      if (mesh_.next[a] == b) {
+        ++fixed;
+        if (inside_[t] != 1 || g == kNone || inside_[g / 3] != 0) return false;
+      } else if (mesh_.prev[a] != b && g != kNone && inside_[t] != inside_[g / 3]) {
+        return false;
+      }
+    }
+  }
+  for (uint32_t v = kShift; v < ring_.size(); ++v) {
+    edges += mesh_.next[v] != kNone;
+    if ((ring_[v] != kNone) != mesh_.contains(v)) return false;
+    if (mesh_.next[v] != kNone && mesh_.prev[mesh_.next[v]] != v) return false;
+  }
+  // A map of the box onto itself that is the identity on its border and nowhere folded is one to one.
+  if (border != 4 || fixed != edges || inside != triangleIn_.size()) return false;
+  for (uint32_t s = 0; s < triangleIn_.size(); ++s)
+    for (uint32_t k = 0; k < 3; ++k)
+      if (triangles_[3 * s + k] + kShift != mesh.corners[3 * triangleIn_[s] + k]) return false;
+  return true;
+}
+
+}  // namespace sf
