@@ -62,7 +62,7 @@ function figure7(shown) {
     logLog({ ...at, width: 330, height: 250, title, xLabel: 'vertices', format, series: list.flatMap((s) => curves(s, value, theirs)) });
   return drawing(920, 610, 'One curve: a monkey saddle of n vertices (figure 7)', [
     legend(20, 56, kLegend),
-    surface(shown[0], { x: 24, y: 150, size: 180, from: [0.9, -1.5, 1.1] }),
+    surface(shown[0], { x: 24, y: 150, size: 180, from: [1.1, -1, 1.2] }),
     text(114, 372, '48 vertices, least dihedral sum', 'm'),
     legend(40, 410, [{ ink: 'k2', mark: 'line', text: 'dihedral' }]),
     legend(40, 430, [{ ink: 'k4', mark: 'line', text: 'area' }]),
@@ -86,14 +86,17 @@ function figure8(shown) {
     return [
       logLog({ ...at(0), title: `${title}: time`, format: timeTick, series: of(...kTime) }),
       logLog({ ...at(1), title: `${title}: memory`, format: memoryTick, series: of(...kMemory) }),
-      logLog({ ...at(2), title: `${title}: domains, minimal sets (dotted)`, format: count, series: counts }),
+      logLog({ ...at(2), title: `${title}: domains, minimal sets`, format: count, series: counts }),
     ];
   };
-  const inks = [2, 3, 4, 5, 6].map((k) => ({ ink: inkOf(k), mark: 'line', text: `${k} curves` }));
   return drawing(1000, 800, 'Several curves: saddles at the corners of an octahedron (figure 8)', [
     legend(20, 56, kLegend),
-    ...shown.slice(1).map((span, i) => surface(span, { x: 45 + 190 * i, y: 70, size: 150, from: [1.5, 1.1, 0.8] })),
-    legend(200, 250, inks),
+    text(980, 56, 'right column: domains, minimal sets dotted', 'e'),
+    ...shown.slice(1).flatMap((span, i) => {
+      const x = 28 + 198 * i;
+      const caption = [{ ink: inkOf(i + 2), mark: 'line', text: `${i + 2} curves` }];
+      return [surface(span, { x, y: 72, size: 150, from: [1.5, 1.1, 0.8] }), legend(x + 40, 248, caption)];
+    }),
     ...row(272, 'All triples', listed('all', [2, 3])),
     ...row(535, 'Delaunay facets', listed('delaunay', [2, 3, 4, 5, 6])),
   ]);

@@ -21,7 +21,7 @@ const kStyle = `text{font:11px system-ui,-apple-system,"Segoe UI",sans-serif;fil
 .e{text-anchor:end}.m{text-anchor:middle}.s{font-size:8px}
 .bg{fill:#fff}.g{stroke:#e4e8ee;fill:none}.a{stroke:#aab3c0;fill:none}
 .l{fill:none;stroke-width:1.8}.d{fill:none;stroke-width:1.2;stroke-dasharray:2 3}.o{fill:none;stroke-width:1.3}
-.k2f.b,.k3f.b{fill-opacity:.85}${declare(0)}
+.f{stroke:#2b4a6b;stroke-width:.5;stroke-linejoin:round}.r{stroke:#e2662c;stroke-width:1.8;stroke-linecap:round}${declare(0)}
 @media(prefers-color-scheme:dark){text{fill:#b3bcc8}.t,.h{fill:#eef2f7}.bg{fill:#12161c}.g{stroke:#272e38}.a{stroke:#5a6572}${declare(1)}}`;
 
 const one = (value) => String(Math.round(10 * value) / 10);
@@ -188,37 +188,38 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const unit = (a) => a.map((value) => value / Math.hypot(...a));
 
+const kShadow = [48, 92, 140];
+const kLight = [173, 214, 246];
+const shaded = (share) =>
+  `#${kShadow.map((dark, i) => Math.round(dark + share * (kLight[i] - dark)).toString(16).padStart(2, '0')).join('')}`;
+
+const edgesOf = ([a, b, c]) => [[a, b], [b, c], [c, a]];
+const edgeKey = ([a, b]) => `${Math.min(a, b)},${Math.max(a, b)}`;
+const triples = (array) => Array.from({ length: array.length / 3 }, (_, i) => [...array.subarray(3 * i, 3 * i + 3)]);
+
 /** A surface in a square of side `size`, seen from direction `from`, far triangles first. */
 export function surface({ positions, triangles }, { x, y, size, from }) {
   const eye = unit(from);
   const side = unit(cross([0, 0, 1], eye));
   const upward = cross(eye, side);
-  const points = Array.from({ length: positions.length / 3 }, (_, v) => [...positions.subarray(3 * v, 3 * v + 3)]);
+  const points = triples(positions);
+  const corners = triples(triangles);
   const flat = points.map((p) => [dot(p, side), -dot(p, upward), dot(p, eye)]);
   const ranges = [0, 1].map((d) => [Math.min(...flat.map((p) => p[d])), Math.max(...flat.map((p) => p[d]))]);
   const factor = size / Math.max(...ranges.map(([low, high]) => high - low));
-  const place = (v) => [0, 1].map((d) => [x, y][d] + size / 2 + factor * (flat[v][d] - (ranges[d][0] + ranges[d][1]) / 2));
+  const middle = ranges.map(([low, high]) => (low + high) / 2);
+  const placed = flat.map((p) => [x, y].map((at, d) => one(at + size / 2 + factor * (p[d] - middle[d]))).join(','));
   const uses = new Map();
-  const key = (a, b) => `${Math.min(a, b)},${Math.max(a, b)}`;
-  const corners = Array.from({ length: triangles.length / 3 }, (_, t) => [...triangles.subarray(3 * t, 3 * t + 3)]);
-  const edgesOf = ([a, b, c]) => [[a, b], [b, c], [c, a]];
-  for (const edge of corners.flatMap(edgesOf)) uses.set(key(...edge), (uses.get(key(...edge)) ?? 0) + 1);
+  for (const edge of corners.flatMap(edgesOf)) uses.set(edgeKey(edge), (uses.get(edgeKey(edge)) ?? 0) + 1);
   const depth = (triangle) => triangle.reduce((sum, v) => sum + flat[v][2], 0);
   const light = unit(side.map((value, i) => 0.35 * value + 0.55 * upward[i] + 0.75 * eye[i]));
-  return corners
-    .sort((s, t) => depth(s) - depth(t))
-    .map((triangle) => {
-      const [a, b, c] = triangle.map((v) => points[v]);
-      const shade = Math.abs(dot(unit(cross(subtract(b, a), subtract(c, a))), light));
-      const fill = [[48, 92, 140], [173, 214, 246]].map((ink) => ink).reduce((dark, bright) => dark.map((value, i) => Math.round(value + shade * (bright[i] - value))));
-      const outline = triangle.map((v) => place(v).map(one).join(',')).join('L');
-      const rim = edgesOf(triangle)
-        .filter((edge) => uses.get(key(...edge)) === 1)
-        .map((edge) => `M${edge.map((v) => place(v).map(one).join(',')).join('L')}`)
-        .join('');
-      const hex = `#${fill.map((value) => value.toString(16).padStart(2, '0')).join('')}`;
-      const face = `<path d="M${outline}z" fill="${hex}" stroke="#2b4a6b" stroke-width=".5" stroke-linejoin="round"/>`;
-      return rim ? `${face}<path d="${rim}" stroke="#e2662c" stroke-width="1.8" stroke-linecap="round"/>` : face;
-    })
-    .join('');
+  const faces = corners.sort((s, t) => depth(s) - depth(t)).map((triangle) => {
+    const [a, b, c] = triangle.map((v) => points[v]);
+    const share = Math.abs(dot(unit(cross(subtract(b, a), subtract(c, a))), light));
+    const face = `<path d="M${triangle.map((v) => placed[v]).join('L')}z" fill="${shaded(share)}"/>`;
+    const rim = edgesOf(triangle).filter((edge) => uses.get(edgeKey(edge)) === 1);
+    if (rim.length === 0) return face;
+    return `${face}<path class="r" d="${rim.map((edge) => `M${edge.map((v) => placed[v]).join('L')}`).join('')}"/>`;
+  });
+  return `<g class="f">${faces.join('')}</g>`;
 }

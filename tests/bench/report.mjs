@@ -8,13 +8,27 @@ export const quantile = (values, share) => {
   return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
 };
 
+/** By then the engine has compiled what matters. */
+const kWarmUp = 0.3;
+
+/** The runs that begin after the time of warming up; but the first, as many as three are kept anyway. */
+function warmRuns(seconds) {
+  let spent = 0;
+  const isWarm = seconds.map((s) => {
+    spent += s;
+    return spent - s >= kWarmUp;
+  });
+  const kept = seconds.filter((_, i) => i > 0 && (isWarm[i] || i >= seconds.length - 3));
+  return kept.length > 0 ? kept : seconds;
+}
+
 /** Median and relative interquartile range of the warm runs, and the first run apart. */
 export function summary({ seconds, ...found }) {
-  const [first, ...warm] = seconds;
-  const runs = warm.length > 0 ? warm : seconds;
+  if (found.problem) return found;
+  const runs = warmRuns(seconds);
   const median = quantile(runs, 0.5);
   const spread = runs.length < 3 ? null : (quantile(runs, 0.75) - quantile(runs, 0.25)) / median;
-  return { median, spread, first, runs: seconds.length, ...found };
+  return { first: seconds[0], ...found, median, spread, runs: seconds.length };
 }
 
 /** Least squares for y = factor · n^exponent on logarithms; null for fewer than three points. */

@@ -13,7 +13,9 @@ import {
 interface Report {
   fitPower: (points: readonly [number, number][]) => { exponent: number; factor: number } | null;
   quantile: (values: readonly number[], share: number) => number;
-  summary: (measured: { seconds: number[] }) => { median: number; first: number; spread: number | null };
+  summary: (
+    measured: { seconds: number[]; first?: number } | { problem: string },
+  ) => { median: number; first: number; spread: number | null };
   disagreement: (found: { native: object; wasm: object }) => boolean;
 }
 const report = (await import(new URL('../bench/report.mjs', import.meta.url).href)) as Report;
@@ -93,10 +95,14 @@ describe('report', () => {
     expect(report.fitPower([[5, 1], [5, 2], [5, 3]])).toBeNull();
   });
 
-  test('summary: the first run stands apart from the median of the others', () => {
+  test('summary: the first run stands apart, and those of the warm-up are left out', () => {
     const { median, first, spread } = report.summary({ seconds: [9, 1, 3, 2, 4, 5] });
     expect([median, first]).toEqual([3, 9]);
+    expect(report.summary({ first: 12, seconds: [9, 1] })).toMatchObject({ median: 1, first: 12 });
+    expect(report.summary({ problem: 'too long' })).toEqual({ problem: 'too long' });
     expect(spread).toBeCloseTo((4 - 2) / 3, 12);
+    expect(report.summary({ seconds: [0.1, 0.15, 0.04, 0.03, 0.02, 0.01, 0.02] }).median).toBe(0.02);
+    expect(report.summary({ seconds: [0.1, 0.03, 0.01, 0.02] }).median).toBe(0.02);
     expect(report.summary({ seconds: [9] })).toMatchObject({ median: 9, first: 9, spread: null });
   });
 
