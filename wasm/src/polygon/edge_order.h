@@ -1,13 +1,16 @@
-// The edges that cross the sweep line, from left to right: a list for neighbours, and a treap over
-// the same records for finding the place of a new vertex.
+// The edges that cross the sweep line, from left to right: a list for neighbours, a treap over
+// some of them for finding the place of a new vertex; before that, a few steps along the list are
+// tried, from an edge that the caller thinks near or one that was last seen at about the same x.
 // Source: Seidel, Aragon 1996, "Randomized search trees". Differs: priorities are hashes of the
-// records' numbers, so that every run is the same.
+// records' numbers, so that every run is the same; one edge of eight is in the tree, the others are
+// reached along the list, and for few edges there is no tree.
 #pragma once
 #include <cstdint>
 #include <vector>
 
 #include "base/status.h"
 #include "polygon/polygon.h"
+#include "polygon/turn.h"
 
 namespace sf {
 
@@ -18,19 +21,29 @@ struct CrossedEdge {
   uint32_t input : 31;        // vertex where the input edge starts, along the oriented ring
   uint32_t down : 1;          // the link leads down, so that the polygon is to the right
   uint32_t left, right;       // neighbours along the sweep line, kNone at the ends
-  uint32_t parent, child[2];  // treap
+  uint32_t parent, child[2];  // treap, for those in it
 };
 
 class EdgeOrder {
  public:
-  /// Forgets all edges, and keeps the memory for `capacity` of them at once.
-  void reset(size_t capacity);
-  static size_t bytes(size_t capacity) { return capacity * sizeof(CrossedEdge); }
+  /// Forgets all edges, and keeps the memory for `capacity` of them at once, over points of x from
+  /// `least` to `greatest`.
+  void reset(size_t capacity, double least, double greatest);
+  static size_t bytes(size_t capacity) { return capacity * (sizeof(CrossedEdge) + 8); }
 
   CrossedEdge& operator[](uint32_t e) { return edges_[e]; }
   const CrossedEdge& operator[](uint32_t e) const { return edges_[e]; }
-  uint32_t root() const { return root_; }
+  size_t capacity() const { return edges_.size(); }
   uint32_t leftmost() const { return leftmost_; }
+  /// The edges that p lies between, kNone at the ends; true, with `left` an edge through p, if there
+  /// is one. O(log n) expected, O(1) if `hint` is an edge close to p; it may be kNone.
+  bool find(Point2 p, uint32_t hint, uint32_t& left, uint32_t& right) const;
+  /// Whether there are so many edges that a hint is worth its search.
+  bool takesHints() const { return hasTree_; }
+  /// Remembers that edge e was seen near x.
+  void remember(uint32_t e, double x) {
+    if (hasTree_) near_[columnOf(x)] = e;
+  }
 
   /// A new record directly right of `left`, or leftmost if that is kNone. O(log n) expected.
   uint32_t insertAfter(uint32_t left);
@@ -38,13 +51,24 @@ class EdgeOrder {
   void remove(uint32_t e);
 
  private:
+  void index(uint32_t e);
+  void unindex(uint32_t e);
   void attach(uint32_t e, uint32_t parent, int side);
   void rotateUp(uint32_t e);
   void replaceChild(uint32_t parent, uint32_t old, uint32_t now);
 
+  /// Positive if p lies left of edge e, negative if right, 0 on it.
+  double side(uint32_t e, Point2 p) const { return turn(edges_[e].lo, edges_[e].hi, p); }
+  uint32_t columnOf(double x) const { return uint32_t((x - least_) * columnsPerX_); }
+  bool walkRight(uint32_t e, Point2 p, uint32_t& left, uint32_t& right) const;
+  bool findFrom(uint32_t e, Point2 p, uint32_t& left, uint32_t& right) const;
+
   std::vector<CrossedEdge> edges_;
   std::vector<uint32_t> free_;
+  std::vector<uint32_t> near_;
+  double least_ = 0, columnsPerX_ = 0;
   size_t used_ = 0;
+  bool hasTree_ = false;
   uint32_t root_ = kNone, leftmost_ = kNone;
 };
 

@@ -1,6 +1,7 @@
 #include "polygon/sweep.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/charge.h"
 #include "polygon/link_rings.h"
@@ -9,6 +10,16 @@
 namespace sf {
 
 using State = SweepState;
+
+namespace {
+
+constexpr size_t kFewToSort = 128;
+// Events whose data are touched at once; from how many nodes on they do not fit the nearer caches.
+constexpr size_t kAhead = 64, kFarApart = 8192;
+// How far along a loop to look for an edge near a new one.
+constexpr int kRingSteps = 24;
+
+}  // namespace
 
 PlaneSweep::PlaneSweep() : state_(new SweepState) {}
 PlaneSweep::~PlaneSweep() = default;
@@ -63,20 +74,23 @@ bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility&
   view = &polygon, loops = &linked, seen = &visibility;
   outcome = misplaced = {};
   const size_t m = linked.at.size();
-  events.clear();
-  events.reserve(m);
-  size_t minima = 0;
+  events.resize(m);
+  size_t minima = 0, count = 0;
+  Point2 least{HUGE_VAL, HUGE_VAL}, greatest{-HUGE_VAL, -HUGE_VAL};
   for (uint32_t v = 0; v < m; ++v) {
-    if (linked.kind[v] == VertexKind::Unused) continue;
-    minima += linked.kind[v] == VertexKind::Bottom;
-    events.push_back({linked.at[v], v});
+    const VertexKind kind = linked.kind[v];
+    const Point2 at = linked.at[v];
+    events[count] = {at, v, kind};
+    count += kind != VertexKind::Unused;
+    minima += kind == VertexKind::Bottom;
+    least.x = std::min(least.x, at.x), greatest.x = std::max(greatest.x, at.x);
+    least.y = std::min(least.y, at.y), greatest.y = std::max(greatest.y, at.y);
   }
-  std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
-    return below(a.at, b.at) || (a.at == b.at && a.node < b.node);
-  });
+  events.resize(count);
+  sortEvents(least.y, greatest.y);
   if (!work.tick(uint32_t(std::min<size_t>(m, 1u << 24)) * 60)) return false;
   // Edges come into the order in pairs, at local minima alone.
-  edges.reset(2 * minima);
+  edges.reset(2 * minima, least.x, greatest.x);
   ending.resize(2 * m);
   seen->order.clear();
   seen->left.resize(m);
@@ -88,15 +102,55 @@ bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility&
   return true;
 }
 
+/// Sorts the events by height: in buckets of even height, which suits most polygons, then each.
+void State::sortEvents(double least, double greatest) {
+  const auto isBelow = [](const Event& a, const Event& b) {
+    return below(a.at, b.at) || (a.at == b.at && a.node < b.node);
+  };
+  const size_t count = events.size(), last = count / 2;
+  const double scale = double(last) / (greatest - least);
+  if (count < kFewToSort || !(scale < 1e300)) {
+    std::sort(events.begin(), events.end(), isBelow);
+    return;
+  }
+  unsorted.swap(events);
+  events.resize(count);
+  buckets.assign(last + 2, 0);
+  const auto bucketOf = [&](const Event& e) { return size_t((e.at.y - least) * scale); };
+  for (const Event& e : unsorted) ++buckets[bucketOf(e) + 1];
+  for (size_t b = 0; b <= last; ++b) buckets[b + 1] += buckets[b];
+  for (const Event& e : unsorted) events[buckets[bucketOf(e)]++] = e;
+  // Each start has moved to the end of its bucket.
+  for (size_t b = 0, begin = 0; b <= last; begin = buckets[b++])
+    if (buckets[b] - begin > 1)
+      std::sort(events.begin() + ptrdiff_t(begin), events.begin() + ptrdiff_t(buckets[b]), isBelow);
+}
+
+/// Reads what the next events will need, without waiting for any of it: so the delays of memory
+/// overlap, which one after the other would take most of the time for large polygons.
+void State::touchAhead(size_t i, size_t end) {
+  const uint32_t* next = loops->next.data();
+  const uint32_t* prev = loops->prev.data();
+  uint64_t sum = 0;
+  for (; i < end; ++i) {
+    const uint32_t v = events[i].node;
+    const uint32_t e = ending[2 * size_t(v) + (events[i].kind == VertexKind::LeftBank)];
+    sum += next[v] + prev[v] + (loops->at[v].x > 0);
+    if (e < edges.capacity()) sum += edges[e].left;
+  }
+  touched += sum;
+}
+
 void State::sweep(Work& work) {
   for (size_t i = 0; i < events.size();) {
-    const size_t end = std::min(i + 1024, events.size());
+    const size_t end = std::min(i + kAhead, events.size());
+    if (events.size() > kFarApart) touchAhead(i, end);
     while (i < end) {
       const size_t passed = step(i);
       if (passed == 0) return;
       i += passed;
     }
-    if (!work.tick(60 * 1024)) return;
+    if (!work.tick(60 * kAhead)) return;
   }
   SF_ASSERT(!misplaced.ok() || edges.leftmost() == kNone);
 }
@@ -106,7 +160,7 @@ size_t State::step(size_t i) {
   size_t count = 1;
   while (i + count < events.size() && events[i + count].at == event.at) ++count;
   const auto pass = [&] {
-    switch (loops->kind[event.node]) {
+    switch (event.kind) {
       case VertexKind::LeftBank:
         return passMonotone(event, true);
       case VertexKind::RightBank:
@@ -130,6 +184,7 @@ void State::set(uint32_t e, uint32_t lower, uint32_t upper, uint32_t input, bool
   edge.lower = lower, edge.upper = upper;
   edge.input = input, edge.down = down;
   ending[2 * size_t(upper) + down] = e;
+  edges.remember(e, edge.lo.x);
 }
 
 void State::see(uint32_t v, uint32_t left, uint32_t right, bool isSag) {
@@ -153,17 +208,23 @@ bool State::passMonotone(const Event& event, bool down) {
   return true;
 }
 
+/// An edge that crosses the sweep line and is not far from the node along its loop, if one is.
+uint32_t State::edgeNear(const Event& event) const {
+  if (!edges.takesHints()) return kNone;
+  uint32_t after = event.node, before = event.node;
+  for (int steps = 0; steps < kRingSteps; ++steps) {
+    const uint32_t a = loops->next[after], b = loops->prev[before];
+    if (below(loops->at[a], event.at)) return ending[2 * size_t(after) + 1];
+    if (below(loops->at[b], event.at)) return ending[2 * size_t(before)];
+    after = a, before = b;
+  }
+  return kNone;
+}
+
 bool State::passMinimum(const Event& event) {
   const uint32_t v = event.node, prev = loops->prev[v], next = loops->next[v];
-  uint32_t left = kNone, right = kNone;
-  for (uint32_t e = edges.root(); e != kNone;) {
-    const double s = side(e, event.at);
-    if (s == 0) return false;
-    if (s < 0)
-      left = e, e = edges[e].child[1];
-    else
-      right = e, e = edges[e].child[0];
-  }
+  uint32_t left, right;
+  if (edges.find(event.at, edgeNear(event), left, right)) return false;
   const double shape = turn(event.at, loops->at[prev], loops->at[next]);
   if (shape == 0) return false;
   const bool concave = shape > 0;  // the link that leads up is left of the one that leads down
@@ -192,15 +253,8 @@ bool State::passMaximum(const Event& event) {
 }
 
 bool State::passIsland(const Event& event) {
-  uint32_t left = kNone, right = kNone;
-  for (uint32_t e = edges.root(); e != kNone;) {
-    const double s = side(e, event.at);
-    if (s == 0) return false;
-    if (s < 0)
-      left = e, e = edges[e].child[1];
-    else
-      right = e, e = edges[e].child[0];
-  }
+  uint32_t left, right;
+  if (edges.find(event.at, edgeNear(event), left, right)) return false;
   if (!isInside(left)) misplace(event.node, inputOf(left));
   see(event.node, left, right, true);
   return true;

@@ -13,6 +13,7 @@ struct SweepState {
   struct Event {
     Point2 at;
     uint32_t node;
+    VertexKind kind;  // as the two edges alone tell
   };
   /// One of the edges at a point where loops touch: `other` is the node at its other end, `node`
   /// the one at the point. `down`: it leads from the upper to the lower end.
@@ -25,12 +26,15 @@ struct SweepState {
 
   // Kept from polygon to polygon.
   EdgeOrder edges;
-  std::vector<Event> events;
+  std::vector<Event> events, unsorted;
+  std::vector<uint32_t> buckets;
   std::vector<uint32_t> ending;  // [2m] the record of the edge that ends at node v from below: 2v
                                  // for one that leads up, 2v+1 for one that leads down
   std::vector<uint8_t> reversed;
   std::vector<HalfEdge> lower, upper;
   std::vector<uint32_t> strands;
+
+  uint64_t touched = 0;  // what touchAhead read, so that it is read
 
   // Of this polygon.
   const PolygonView* view = nullptr;
@@ -42,11 +46,14 @@ struct SweepState {
 
   void findSpike();
   bool begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility& visibility, Work& work);
+  void sortEvents(double least, double greatest);
   void sweep(Work& work);
+  void touchAhead(size_t i, size_t end);
   /// Handles event i, with those after it that are at the same point; returns how many, 0 after a
   /// crossing.
   size_t step(size_t i);
   bool passMonotone(const Event& event, bool down);
+  uint32_t edgeNear(const Event& event) const;
   bool passMinimum(const Event& event);
   bool passMaximum(const Event& event);
   bool passIsland(const Event& event);

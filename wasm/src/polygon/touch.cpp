@@ -62,12 +62,8 @@ bool State::findBlock(size_t i, size_t count, uint32_t& first, uint32_t& last, u
     if (up || down) any = ending[2 * size_t(v) + down];
   }
   if (any == kNone) {
-    for (uint32_t e = edges.root(); e != kNone && any == kNone;) {
-      const double s = side(e, at);
-      if (s == 0) any = e;
-      if (s < 0) left = e;
-      e = edges[e].child[s < 0];
-    }
+    uint32_t right;
+    if (edges.find(at, kNone, left, right)) any = left;
     if (any == kNone) return true;
   }
   const auto through = [&](uint32_t e) { return edges[e].hi == at || side(e, at) == 0; };
