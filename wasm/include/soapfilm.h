@@ -95,6 +95,39 @@ SfStatus sf_triangulate_polygons(const double* positions, const uint32_t* ringSt
                                  uint32_t polygonCount, const double* points, uint32_t pointCount,
                                  const double* settings, uint32_t* where, SfResult** result);
 
+/// Begins a session on one polygon of the plane, whose rings may not touch, and whose vertices are then
+/// inserted, deleted and moved: only the triangles around are made anew (Kumar 2000, sec. 5).
+///   points    [2 * pointCount] isolated vertices inside, numbered from n on
+///   maxBytes  memory limit for the session and each of its calls
+///   where     [4] out: as of sf_triangulate_polygons
+///   result    out: 0 uint32_t [1] the session's number; 1 uint32_t [3m] triangles; null if refused
+SF_API(sf_session_open)
+SfStatus sf_session_open(const double* positions, const uint32_t* ringStarts, uint32_t ringCount,
+                         const double* points, uint32_t pointCount, double maxBytes,
+                         uint32_t* where, SfResult** result);
+
+/// An edit of a session; one that is refused leaves all as it was.
+///   action  0 inserts a vertex after `vertex` of a ring, 1 an isolated one, 2 deletes `vertex`, 3
+///           moves it
+///   x, y    the place, for all but deletions
+///   where   [4] out: ring and number of the edited vertex and of the culprit, if refused
+///   result  out: 0 uint32_t [2] the vertex's number, and how many triangles there are now;
+///           1 uint32_t [c] which of these are new, and 2 uint32_t [3c] their corners; null if refused
+SF_API(sf_session_edit)
+SfStatus sf_session_edit(uint32_t session, uint32_t action, uint32_t vertex, double x, double y,
+                         uint32_t* where, SfResult** result);
+
+/// What a session holds.
+///   result  out: 0 double [2n] positions by number; 1 uint32_t [n] the next vertex of each one's ring,
+///           or 0xFFFFFFFF for isolated ones, or the vertex itself for numbers out of use;
+///           2 uint32_t strips and 3 uint32_t [s+1] where each begins; 4 uint32_t [1] whether all of it
+///           has passed the certificate, from scratch
+SF_API(sf_session_read)
+SfStatus sf_session_read(uint32_t session, uint32_t* where, SfResult** result);
+
+/// Ends a session, if there is one of that number, which may then be given again. Returns 0.
+SF_API(sf_session_close) SfStatus sf_session_close(uint32_t session);
+
 #ifdef __cplusplus
 }
 #endif

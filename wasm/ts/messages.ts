@@ -90,18 +90,19 @@ const table: Readonly<Record<number, readonly [ErrorCode, (place: ErrorPlace) =>
 };
 
 /**
- * The error for a failed call, or for one of the polygons of a call.
+ * The error for a failed call.
  * @param where `[4]` loop, vertex, other loop, other vertex, or 0xFFFFFFFF where there is none
+ * @param noun what loops are called
  * @param more what else is known of the place
  */
 export function statusError(
   status: number,
   where: ArrayLike<number>,
-  more: ErrorPlace & { readonly noun?: string } = {},
+  noun = 'loop',
+  more: ErrorPlace = {},
 ): SoapfilmError {
-  const { noun = 'loop', ...rest } = more;
   const place: ErrorPlace = {
-    ...rest,
+    ...more,
     ...(where[0] !== kNone && { loop: where[0] }),
     ...(where[1] !== kNone && { vertex: where[1] }),
     ...(where[2] !== kNone && { otherLoop: where[2] }),
@@ -111,4 +112,13 @@ export function statusError(
   if (!entry) return new SoapfilmError('crashed', `the core ended with unknown status ${status}`);
   const text = entry[1](place).replace(/\bloop (?=\d)/g, `${noun} `);
   return new SoapfilmError(entry[0], text[0].toUpperCase() + text.slice(1), place);
+}
+
+/** The error for a polygon: its loops are rings. */
+export function ringError(
+  status: number,
+  where: ArrayLike<number>,
+  more?: ErrorPlace,
+): SoapfilmError {
+  return statusError(status, where, 'ring', more);
 }

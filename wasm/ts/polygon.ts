@@ -1,7 +1,7 @@
 // triangulatePolygon and triangulatePolygons: polygons in one of their forms, made flat for the core.
 import { SoapfilmError, type ErrorPlace } from './errors.js';
 import { isList, isNumber } from './loopset.js';
-import { statusError } from './messages.js';
+import { ringError } from './messages.js';
 import { badOption, checkLimits } from './options.js';
 import { callCore } from './runtime.js';
 import type {
@@ -232,7 +232,7 @@ export function triangulate(
       Uint32Array,
       Float64Array,
     ],
-    { maxSeconds, borrows: borrow },
+    { maxSeconds, borrows: borrow, explain: ringError },
   );
   const [triangles, triangleStarts, strips, stripStarts, polygonStrips, added, addedOn] = arrays;
   const [, , , , , , , steps, faults, places] = arrays;
@@ -240,8 +240,7 @@ export function triangulate(
   for (let i = 0; 6 * i < faults.length; i++) {
     const [polygon, status, ...where] = faults.subarray(6 * i, 6 * i + 6);
     const point = Array.from(places.subarray(dim * i, dim * i + dim));
-    const error = statusError(status, where, {
-      noun: 'ring',
+    const error = ringError(status, where, {
       ...(several && { polygon }),
       ...(!Number.isNaN(point[0]) && { point }),
     });

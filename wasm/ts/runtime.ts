@@ -27,6 +27,20 @@ export interface Watch<T extends readonly ArrayType[]> {
   readonly keepsResult?: boolean | undefined;
   /** Whether the arrays handed back are views of the core's memory, good until its next call. */
   readonly borrows?: boolean | undefined;
+  /** The instance to call; default: the one that all calls share which leave nothing behind. */
+  readonly home?: Home | undefined;
+  /** The error for a status; default `statusError`. */
+  readonly explain?: ((status: number, where: Uint32Array) => SoapfilmError) | undefined;
+}
+
+/**
+ * An instance of the core, made when it is first called, in which calls leave something for later ones.
+ * It stays until it traps: then all that was in it is lost.
+ */
+export class Home {
+  /** @internal */
+  core: Core | undefined;
+  lost = false;
 }
 
 const kProgressMs = 30;
@@ -45,7 +59,7 @@ interface Core {
 
 /** The call under way. */
 interface Run {
-  readonly watch: Pick<Watch<[]>, 'onProgress' | 'maxSeconds' | 'keepsResult' | 'borrows'>;
+  readonly watch: Pick<Watch<[]>, 'onProgress' | 'maxSeconds' | 'keepsResult' | 'borrows' | 'explain'>;
   /** Hands a result on, by its handle. */
   readonly hear: (handle: number) => void;
   readonly started: number;
@@ -56,7 +70,7 @@ interface Run {
 }
 
 let module: WebAssembly.Module | undefined;
-let core: Core | undefined;
+const shared = new Home();
 let run: Run | undefined;
 /** A result whose arrays are lent out, freed by the next call. */
 let lent: { readonly core: Core; readonly handle: number } | undefined;
@@ -72,7 +86,7 @@ export function compiledModule(): WebAssembly.Module | undefined {
  */
 export async function startCore(compiled: WebAssembly.Module): Promise<void> {
   const started = await WebAssembly.instantiate(compiled, imports(compiled));
-  core = open(started);
+  shared.core = open(started);
   module = compiled;
 }
 
@@ -164,26 +178,29 @@ export function callCore<const T extends readonly ArrayType[]>(
   if (!module) {
     throw new SoapfilmError('not-loaded', 'Call `await load()` once before any other function');
   }
+  const { home = shared } = watch;
+  if (home.lost) throw new SoapfilmError('crashed', 'What this call is about was lost in a crash');
   const now = performance.now();
   const hear = (handle: number): void => {
-    if (core) watch.onResult?.(readArrays(core, handle, types));
+    if (home.core) watch.onResult?.(readArrays(home.core, handle, types));
   };
   const thisRun: Run = { watch, hear, started: now, told: now, fraction: 0 };
   run = thisRun;
   try {
     // Of an instance that is gone, the views are all that is left.
-    if (lent && lent.core === core) core.find('sf_result_free')(lent.handle);
+    if (lent && lent.core === shared.core) lent.core.find('sf_result_free')(lent.handle);
     lent = undefined;
-    core ??= open(new WebAssembly.Instance(module, imports(module)));
-    return callIn(core, name, args, types, thisRun);
+    home.core ??= open(new WebAssembly.Instance(module, imports(module)));
+    return callIn(home.core, name, args, types, thisRun);
   } catch (error) {
     if (error instanceof SoapfilmError || (thisRun.stop && error === thisRun.stop.reason)) {
       throw error;
     }
-    throw trapped(error);
+    throw trapped(error, home);
   } finally {
     run = undefined;
-    if (core && core.memory.buffer.byteLength > kKeepBytes) core = undefined;
+    const { core } = shared;
+    if (core && core.memory.buffer.byteLength > kKeepBytes) shared.core = undefined;
   }
 }
 
@@ -221,7 +238,7 @@ function callIn<const T extends readonly ArrayType[]>(
   const status = entry(...values, where, result);
   const handle = new Uint32Array(memory.buffer, result, 1)[0];
   let arrays: Arrays<T> | undefined;
-  const { borrows = false } = thisRun.watch;
+  const { borrows = false, explain = statusError } = thisRun.watch;
   try {
     if (status === kOk || status === kNotFound) {
       arrays = readArrays(called, handle, types, borrows);
@@ -241,7 +258,7 @@ function callIn<const T extends readonly ArrayType[]>(
   if (!arrays) {
     throw status === kStopped
       ? new SoapfilmError('cancelled', 'The work was stopped')
-      : statusError(status, culprits);
+      : explain(status, culprits);
   }
   return { found: status === kOk, arrays };
 }
@@ -265,9 +282,10 @@ function readArrays<const T extends readonly ArrayType[]>(
 const padded = (bytes: number): number => Math.ceil(bytes / 8) * 8;
 
 /** After a trap: drops the instance, whose memory is in an unknown state, and names the trap. */
-function trapped(error: unknown): SoapfilmError {
-  const full = core ? !canGrow(core.memory) : error instanceof RangeError;
-  core = undefined;
+function trapped(error: unknown, home: Home): SoapfilmError {
+  const full = home.core ? !canGrow(home.core.memory) : error instanceof RangeError;
+  home.core = undefined;
+  home.lost = home !== shared;
   const cause = { cause: error };
   return full
     ? new SoapfilmError('out-of-memory', 'WebAssembly memory ran out', undefined, cause)

@@ -262,6 +262,34 @@ export interface PolygonsTriangulation extends PolygonTriangulation {
   readonly errors: readonly SoapfilmError[];
 }
 
+/** What an edit of a PolygonSession changed. */
+export interface PolygonEdit {
+  /** The vertex inserted, moved or deleted. */
+  readonly vertex: number;
+  /** How many triangles there are now. */
+  readonly triangleCount: number;
+  /** `[c]` which of them are new, by increasing number; all others are as before. */
+  readonly changed: Uint32Array;
+  /** `[3c]` their vertices. */
+  readonly triangles: Uint32Array;
+}
+
+/** What a PolygonSession holds. */
+export interface PolygonState {
+  /** `[2n]` by vertex; those of deleted vertices mean nothing. */
+  readonly positions: Float64Array;
+  /**
+   * `[n]` the next vertex of each one's ring, with the polygon to the left; `0xffffffff` for isolated
+   * vertices, and the vertex itself for deleted ones.
+   */
+  readonly next: Uint32Array;
+  /** Strips, as those of `triangulatePolygon`. */
+  readonly strips: Uint32Array;
+  readonly stripStarts: Uint32Array;
+  /** Whether triangles of the polygon and of its complement have been tested to be right, all anew. */
+  readonly certified: boolean;
+}
+
 /** A GeoJSON object, as far as it matters here. */
 export interface GeoJSONLike {
   readonly type: string;

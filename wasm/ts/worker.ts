@@ -1,6 +1,7 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 // The entry `soapfilm/worker`: the library's functions in threads of their own.
 import { SoapfilmError } from './errors.js';
+import { kDispose } from './dispose.js';
 import { compile } from './load.js';
 import { Pool } from './pool.js';
 import { unpackErrors, type Calls } from './protocol.js';
@@ -61,10 +62,6 @@ export interface Film {
   dispose(): void;
   [Symbol.dispose](): void;
 }
-
-/** The key of `using`, also where the engine does not know it yet. */
-const kDispose: typeof Symbol.dispose = ((Symbol as { readonly dispose?: symbol }).dispose ??
-  Symbol.for('Symbol.dispose')) as typeof Symbol.dispose;
 
 /**
  * Starts a pool. Needs no `load()`, and shares the compiled core with it.

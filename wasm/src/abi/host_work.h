@@ -13,6 +13,13 @@ inline bool isChoice(double value, int last) {
   return value >= 0 && value <= last && value == std::floor(value);
 }
 
+/// Whether starts [count + 1] rise from 0.
+inline bool isRising(const uint32_t* starts, uint32_t count) {
+  for (uint32_t i = 0; i < count; ++i)
+    if (starts[i + 1] < starts[i]) return false;
+  return starts[0] == 0;
+}
+
 /// A budget of at most `maxBytes`, not NaN, that reports to the host.
 inline Work hostWork(double maxBytes) {
   const auto report = [](void*, double fraction, double bestCost, double lowerBound) {

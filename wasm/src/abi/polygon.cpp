@@ -202,13 +202,6 @@ SfResult* Call::pack() {
   return result;
 }
 
-/// Whether `starts` rises from 0.
-bool isRising(const uint32_t* starts, uint32_t count) {
-  for (uint32_t i = 0; i < count; ++i)
-    if (starts[i + 1] < starts[i]) return false;
-  return starts[0] == 0;
-}
-
 sf::Outcome check(const uint32_t* ringStarts, uint32_t ringCount, const uint32_t* polygonStarts,
                   uint32_t polygonCount, uint32_t pointCount, const double* settings) {
   const int last[] = {1, 1, 2, 1, 1, 1, 1};
@@ -216,7 +209,7 @@ sf::Outcome check(const uint32_t* ringStarts, uint32_t ringCount, const uint32_t
     if (!sf::isChoice(i == 0 ? settings[0] - 2 : settings[i], last[i]))
       return {sf::Status::BadOption};
   if (!(settings[7] >= 0)) return {sf::Status::BadOption};
-  if (!isRising(ringStarts, ringCount) || !isRising(polygonStarts, polygonCount) ||
+  if (!sf::isRising(ringStarts, ringCount) || !sf::isRising(polygonStarts, polygonCount) ||
       polygonStarts[polygonCount] != ringCount)
     return {sf::Status::BadStarts};
   const bool several = polygonCount != 1, repairs = settings[2] != 0, traces = settings[6] != 0;

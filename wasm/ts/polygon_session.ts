@@ -1,0 +1,144 @@
+/// <reference lib="esnext.disposable" preserve="true" />
+// PolygonSession: a polygon that stays in the core while it is edited.
+import { kDispose } from './dispose.js';
+import { SoapfilmError } from './errors.js';
+import { ringError } from './messages.js';
+import { checkLimits } from './options.js';
+import { toFlatPolygon } from './polygon.js';
+import { callCore, Home, type Arrays, type CoreArgument } from './runtime.js';
+import type { PolygonEdit, PolygonLike, PolygonOptions, PolygonState } from './types.js';
+
+/** Where sessions live: apart from other calls, which may end with an instance that has to be dropped. */
+let home = new Home();
+let open = 0;
+
+/** The order of the actions of `sf_session_edit`. */
+const kInsert = 0;
+const kInsertIsolated = 1;
+const kDelete = 2;
+const kMove = 3;
+
+type Types = Parameters<typeof callCore>[2];
+
+/**
+ * A triangulated polygon in the plane whose vertices can be inserted, deleted and moved; the work is in
+ * proportion to the triangles around the edit. Holds memory of the core until it is disposed of.
+ *
+ * Rings may not touch, and no two vertices have one place: codes are those of `triangulatePolygon`,
+ * and `repeated-vertex`. An edit that would make the polygon invalid throws and changes nothing; `vertex` and
+ * `otherVertex` of its error are numbers of vertices as everywhere in a session. After `crashed`, which
+ * only a defect of the core can bring about, all sessions are lost, and say so when they are used.
+ */
+export class PolygonSession {
+  readonly #home: Home;
+  #number: number | undefined;
+  #triangles: Uint32Array;
+  #count: number;
+
+  /**
+   * Vertices are numbered as in the input, isolated `points` after them; the directions of its rings
+   * are those of `PolygonState.next`.
+   */
+  constructor(polygon: PolygonLike, options: Pick<PolygonOptions, 'maxMemoryBytes'> = {}) {
+    const maxBytes = checkLimits(options);
+    const { positions, ringStarts, points, dim } = toFlatPolygon(polygon);
+    if (dim === 3) throw new SoapfilmError('bad-polygon', 'Polygons of sessions lie in the plane');
+    if (home.lost) [home, open] = [new Home(), 0];
+    this.#home = home;
+    const [[number], triangles] = this.#call(
+      'sf_session_open',
+      [
+        positions,
+        ringStarts,
+        ringStarts.length - 1,
+        points ?? null,
+        points ? points.length / 2 : 0,
+        maxBytes,
+      ],
+      [Uint32Array, Uint32Array],
+    );
+    this.#number = number;
+    this.#triangles = triangles;
+    this.#count = triangles.length;
+    open++;
+  }
+
+  /** `[3m]` the triangles, counter-clockwise. */
+  get triangles(): Uint32Array {
+    return this.#triangles.slice(0, this.#count);
+  }
+
+  /** Inserts a vertex into a ring, between `before` and the next one. */
+  insert(before: number, [x, y]: readonly [number, number]): PolygonEdit {
+    return this.#edit(kInsert, before, x, y);
+  }
+
+  /** Inserts an isolated vertex inside the polygon. */
+  insertPoint([x, y]: readonly [number, number]): PolygonEdit {
+    return this.#edit(kInsertIsolated, 0, x, y);
+  }
+
+  /** Deletes a vertex; its number may be given to one inserted later. A ring keeps 3 vertices. */
+  delete(vertex: number): PolygonEdit {
+    return this.#edit(kDelete, vertex, 0, 0);
+  }
+
+  move(vertex: number, [x, y]: readonly [number, number]): PolygonEdit {
+    return this.#edit(kMove, vertex, x, y);
+  }
+
+  /** All that the session holds besides the triangles, in time proportional to the polygon's size. */
+  read(): PolygonState {
+    const [positions, next, strips, stripStarts, certified] = this.#call(
+      'sf_session_read',
+      [this.#alive()],
+      [Float64Array, Uint32Array, Uint32Array, Uint32Array, Uint32Array],
+    );
+    return { positions, next, strips, stripStarts, certified: certified[0] === 1 };
+  }
+
+  /** Frees the session's memory. Any other use of it afterwards throws `disposed`. */
+  dispose(): void {
+    if (this.#number === undefined) return;
+    const number = this.#number;
+    this.#number = undefined;
+    if (this.#home.lost) return;
+    // Memory of instances never shrinks: the last session takes its instance along.
+    if (--open === 0) home = new Home();
+    else this.#call('sf_session_close', [number], []);
+  }
+
+  [kDispose](): void {
+    this.dispose();
+  }
+
+  #alive(): number {
+    if (this.#number !== undefined) return this.#number;
+    throw new SoapfilmError('disposed', 'The session has been disposed of');
+  }
+
+  #call<const T extends Types>(name: string, args: readonly CoreArgument[], types: T): Arrays<T> {
+    return callCore(name, args, types, { home: this.#home, explain: ringError }).arrays;
+  }
+
+  #edit(action: number, vertex: number, x: number, y: number): PolygonEdit {
+    if (!(Number.isInteger(vertex) && vertex >= 0 && vertex < 2 ** 32)) {
+      throw new SoapfilmError('bad-option', `There is no vertex ${String(vertex)}`);
+    }
+    const [[edited, triangleCount], changed, triangles] = this.#call(
+      'sf_session_edit',
+      [this.#alive(), action, vertex, x, y],
+      [Uint32Array, Uint32Array, Uint32Array],
+    );
+    this.#count = 3 * triangleCount;
+    if (this.#triangles.length < this.#count) {
+      const larger = new Uint32Array(2 * this.#count);
+      larger.set(this.#triangles);
+      this.#triangles = larger;
+    }
+    changed.forEach((t, i) => {
+      this.#triangles.set(triangles.subarray(3 * i, 3 * i + 3), 3 * t);
+    });
+    return { vertex: edited, triangleCount, changed, triangles };
+  }
+}
