@@ -218,7 +218,7 @@ Expected measured(const Problem& problem, const PathAnswer& answer, std::string&
 /// Tells doctest what is wrong with a path's answer.
 void checkAnswer(const Path& path, const Problem& problem, const PathAnswer& answer,
                  const Expected& expected) {
-  INFO(path.name, "\n", problem.text());
+  INFO(std::string(path.name), "\n", problem.text());
   CHECK(answer.fault == "");
   CHECK(answer.found == expected.found);
   if (!answer.found || !expected.found) return;
@@ -337,11 +337,11 @@ TEST_CASE("solver paths: each finds the optimum found by enumeration") {
     double given, least;  // share of problems with a list; share of the triples in that, at least
   };
   const Round rounds[] = {
-      {{3}, 18, 0.3, 1},        {{4}, 63, 0.3, 0.5},        {{5}, 63, 0.4, 0.5},
-      {{6}, 126, 0.4, 0.4},     {{7}, 126, 0.4, 0.4},       {{8}, 126, 0.4, 0.35},
-      {{9}, 63, 0.4, 0.35},     {{3, 3}, 126, 0.4, 0.5},    {{3, 4}, 126, 0.4, 0.5},
-      {{4, 4}, 126, 0.4, 0.4},  {{5, 3}, 126, 0.4, 0.4},    {{4, 5}, 63, 0.5, 0.35},
-      {{6, 3}, 63, 0.5, 0.35},  {{3, 3, 3}, 126, 0.8, 0.3}, {{4, 3, 3}, 63, 1, 0.25},
+      {{3}, 18, 0.3, 1},        {{4}, 63, 0.3, 0.5},       {{5}, 63, 0.4, 0.5},
+      {{6}, 126, 0.4, 0.4},     {{7}, 126, 0.4, 0.4},      {{8}, 126, 0.4, 0.35},
+      {{9}, 63, 0.4, 0.35},     {{3, 3}, 126, 0.4, 0.5},   {{3, 4}, 126, 0.4, 0.5},
+      {{4, 4}, 99, 0.4, 0.4},   {{5, 3}, 99, 0.4, 0.4},    {{4, 5}, 63, 0.5, 0.35},
+      {{6, 3}, 63, 0.5, 0.35},  {{3, 3, 3}, 90, 0.8, 0.3}, {{4, 3, 3}, 63, 1, 0.25},
       {{3, 3, 3, 3}, 9, 1, 0.2}};
   uint32_t seed = 700000;
   MESSAGE("seeds from " << seed);
@@ -361,7 +361,7 @@ TEST_CASE("solver paths: each finds the optimum found by enumeration") {
       compareToEnumeration(problem, random, tally);
     }
   tally.check(8, 80);
-  CHECK(tally.problems > 1400);
+  CHECK(tally.problems > 1300);
   CHECK(tally.comparisons() > 8000);
   CHECK(tally.spanned < tally.problems);
 }
@@ -395,7 +395,7 @@ TEST_CASE("solver paths: all agree on larger input, however it is numbered") {
       INFO("seed ", seed, ", ", std::string(group.name));
       compareToEachOther(problem, random, tally);
     }
-  tally.check(40, 20);
+  tally.check(40, 10);
   CHECK(tally.problems >= 500);
   CHECK(tally.spanned > tally.problems / 2);
 }

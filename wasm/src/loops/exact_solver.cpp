@@ -43,6 +43,11 @@ ExactSolver::ExactSolver(const Pass& pass, LowerBound& bound, uint32_t rootVerte
       table_(pass.work),
       arena_(pass.work) {}
 
+ExactSolver::~ExactSolver() {
+  // Domains that were open when the work ended.
+  for (const Frame& frame : frames_) pass_.work.release(frame.bytes);
+}
+
 bool ExactSolver::solve(double& cost, SplitOrder& order) {
   for (int round = 0;; ++round) {
     if (round == lazyRounds_) allCritical_ = true;

@@ -36,6 +36,7 @@ class ExactSolver {
   ///   lazyRounds  0: all edges are tracked from the start; what it is changes the time, not the cost
   ExactSolver(const Pass& pass, LowerBound& bound, uint32_t rootVertex,
               int lazyRounds = kLazyRounds);
+  ~ExactSolver();
 
   /// The least cost, infinity if there is no surface; false when the work ended.
   bool solve(double& cost, SplitOrder& order);

@@ -139,7 +139,7 @@ bool TwoLoopBound::compute() {
   const double bytes = 8.0 * (double(set.slotTriangle.size()) + 2 * fronts * sizeA_ +
                               fronts * (degree + 1) + 0.5 * sizeA_ * sizeA_ * (degree + 2));
   contextBytes_ = 8.0 * fronts * (degree + 1);
-  mostContexts_ = size_t(std::max(1.0, kContextBytes / contextBytes_));
+  mostContexts_ = size_t(std::max(1.0, contextBytes / contextBytes_));
   if (!pass_.work.fits(bytes)) {
     pass_.work.fail(Status::TooLarge);
     return false;

@@ -31,6 +31,14 @@ class TwoLoopBound final : public LowerBound {
   double value(Shape shape, uint32_t slot) override;
   uint64_t domainCount() const { return domainCount_; }
 
+  /// Of the contexts that are kept for the exact solver; at least one is. Tests change it, so that
+  /// contexts are computed again on small input too.
+#ifdef SF_TESTING
+  static inline double contextBytes = 48e6;
+#else
+  static constexpr double contextBytes = 48e6;
+#endif
+
  private:
   struct Context {
     uint32_t end = kNone;   // place of p in loop A
@@ -41,8 +49,6 @@ class TwoLoopBound final : public LowerBound {
     std::vector<double> values;  // by offset and index of the slot at the access edge
   };
   static constexpr size_t kNoEdge = ~size_t(0);
-  /// Of the contexts that are kept for the exact solver.
-  static constexpr double kContextBytes = 48e6;
 
   uint32_t vertexA(uint32_t place) const { return firstA_ + (place + rootPlace_) % sizeA_; }
   uint32_t placeOf(uint32_t v) const { return (v - firstA_ + sizeA_ - rootPlace_) % sizeA_; }
