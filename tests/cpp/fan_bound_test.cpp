@@ -34,7 +34,7 @@ Surface solved(const LoopSet& loops, const CandidateSet& set, double dihedral,
   Surface surface;
   SolveOptions options;
   options.dihedralWeight = dihedral;
-  options.splitsPerVertex = firstSplits;
+  options.firstSplits = firstSplits;
   REQUIRE(solveSurface(loops, set, options, work, surface));
   CHECK(work.used() == 0);
   return surface;
@@ -106,7 +106,7 @@ TEST_CASE("solver: by fans first or by domains alone, the optimum is the same") 
     Work work;
     const CandidateSet set = candidates(loops, weights, false, work);
     const Surface direct = solved(loops, set, weights.dihedral, ~uint64_t(0));
-    const Surface byFans = solved(loops, set, weights.dihedral, 0);
+    const Surface byFans = solved(loops, set, weights.dihedral, 1);
     CAPTURE(i);
     CHECK(direct.found == byFans.found);
     if (!direct.found) continue;

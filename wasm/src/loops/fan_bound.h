@@ -41,6 +41,9 @@ class FanBound {
   /// triangles that no fan can use. False when the work ended.
   bool excess(std::vector<double>& excess);
 
+  /// About how many nanoseconds a step of ascent takes.
+  double timeOfStep() const { return kTimeOfLabel * double(walks_.size()); }
+
   /// Grows with the square of the number of edges at a vertex, so that hubs make it large.
   static double bytesFor(const LoopSet& loops, const CandidateSet& set);
 
@@ -63,6 +66,8 @@ class FanBound {
     uint32_t longest;             // most triangles that a fan can have here
     size_t firstWalk, firstCheapest;
   };
+
+  static constexpr double kTimeOfLabel = 12;
 
   double evaluate();
   void labelWalks(const Vertex& v);

@@ -5,12 +5,21 @@
 #include <memory>
 
 #include "loops/fan_bound.h"
+#include "loops/fan_filter.h"
 
 namespace sf {
 namespace {
 
+/// Splits of domains, times the vertices, to try first: fans cost in proportion to the vertices too.
+constexpr uint64_t kSplitsOfFew = 10000;
+constexpr uint64_t kSplitsOfMany = 1000;
+/// Of that number from round to round.
+constexpr uint64_t kGrowth = 6;
+/// Of a split in R, in nanoseconds.
+constexpr double kTimeOfSplit = 200;
+
 /// Cuts to try before anything else, where surfaces on the way are of use, and between fans.
-constexpr uint32_t kFirstTries = 64;
+constexpr uint32_t kFirstTries = 64, kFirstTriesOfFew = 8;
 constexpr uint32_t kTriesPerRound = 24;
 
 /// Sums in another order differ in the last digits.
@@ -30,10 +39,11 @@ class PassSolver {
 
  private:
   bool beginSearch();
-  bool lookForFirst();
+  bool lookForFirst(uint32_t tries);
   bool solveByDomains(const Task& task, uint64_t maxSplits, Optimum& optimum);
   bool solveSubset(const std::vector<uint32_t>& kept, uint64_t maxSplits, bool& reached);
-  bool solveByFans();
+  bool solveByFans(uint64_t maxSplits);
+  bool solveWorst(uint64_t maxSplits);
   bool solveWhatIsLeft(FanBound& fans, const std::vector<double>& excess, uint64_t maxSplits,
                        bool& solved);
   void raise(double lowerBound) {
@@ -113,14 +123,15 @@ bool PassSolver::solveWhatIsLeft(FanBound& fans, const std::vector<double>& exce
 /// Solves a task that is too large for all its domains: bounds it by its fans, finds surfaces by cuts
 /// and among the triangles that look best by that bound, and then solves it over the triangles that
 /// the bound and the best surface leave. Both get better from round to round, and the rounds longer.
-bool PassSolver::solveByFans() {
+bool PassSolver::solveByFans(uint64_t maxSplits) {
   FanBound fans(task_.loops, task_.set, task_.triangleCost, task_.measure, task_.work);
   if (!search_ && !beginSearch()) return false;
   std::vector<double> excess;
-  uint64_t maxSplits = 400000;  // of each subset, some hundredths of a second
   for (uint32_t round = 0; task_.work.going(); ++round) {
     task_.work.setFraction(1 - 1 / (1 + 0.3 * round));
-    if (!fans.ascend(300, best_.cost())) return false;
+    // Neither of the two may take much more time than the other: which one gets there is not known.
+    const double steps = kTimeOfSplit * double(maxSplits) / fans.timeOfStep();
+    if (!fans.ascend(uint32_t(std::clamp(steps, 10.0, 300.0)), best_.cost())) return false;
     raise(fans.lowerBound());
     if (fans.lowerBound() == kInfinity) break;  // there is no surface
     bool solved;
@@ -131,7 +142,7 @@ bool PassSolver::solveByFans() {
       raise(best_.cost());
       return true;
     }
-    maxSplits *= 3;
+    maxSplits = maxSplits < kUnlimited / kGrowth ? kGrowth * maxSplits : kUnlimited;
   }
   return task_.work.going();
 }
@@ -141,35 +152,64 @@ bool PassSolver::beginSearch() {
   return options_.start.empty() || search_->startFrom(options_.start);
 }
 
-bool PassSolver::lookForFirst() {
+bool PassSolver::lookForFirst(uint32_t tries) {
   return task_.loops.loopCount() == 1 || !options_.anytime ||
-         (beginSearch() && search_->search(kFirstTries));
+         (beginSearch() && search_->search(tries));
+}
+
+/// The least largest angle over several loops: finds a surface by cuts, and then solves over the
+/// triangles that a surface of smaller angles can have. Those are few, since it is angles near the least
+/// one that have to be told apart.
+bool PassSolver::solveWorst(uint64_t maxSplits) {
+  FanFilter filter(task_.loops, task_.set, task_.triangleCost, task_.work);
+  if (!search_ && !beginSearch()) return false;
+  std::vector<uint32_t> kept;
+  for (uint32_t round = 0; task_.work.going(); ++round) {
+    task_.work.setFraction(1 - 1 / (1 + 0.3 * round));
+    double lowerBound = -kInfinity;
+    if (!search_->search(kTriesPerRound) || !filter.bound(best_.cost(), lowerBound)) return false;
+    raise(lowerBound);
+    bool reached = true;
+    if (!filter.filter(std::nextafter(std::min(best_.cost(), 4.0), 0.0), kept)) return false;
+    if (!kept.empty() && !solveSubset(kept, maxSplits, reached)) return false;
+    if (reached) {
+      raise(best_.cost());
+      return true;
+    }
+    maxSplits = maxSplits < kUnlimited / kGrowth ? kGrowth * maxSplits : kUnlimited;
+  }
+  return false;
 }
 
 bool PassSolver::run(double from, double to) {
   const LoopSet& loops = task_.loops;
   Work& work = task_.work;
+  const uint32_t k = loops.loopCount();
+  const bool large = isLarge(loops, task_.set), worst = task_.measure.isWorst();
   // Hubs make fans expensive: their labels may take what some times the candidates do.
-  const double fanBytes = FanBound::bytesFor(loops, task_.set);
-  const bool direct = loops.loopCount() == 1 || task_.measure.isWorst() ||
-                      isLarge(loops, task_.set) || !work.fits(fanBytes) ||
+  const double fanBytes = worst ? 0 : FanBound::bytesFor(loops, task_.set);
+  const bool direct = k == 1 || (k == 2 && large) || (worst && large) || !work.fits(fanBytes) ||
                       fanBytes > 40 * CandidateSet::bytesFor(double(task_.set.size()));
-  const uint64_t n = loops.vertexCount();
-  const uint64_t splits = options_.splitsPerVertex;
+  // Domains are few where loops and candidates are.
+  const bool areFew = k <= 3 && !large && !worst;
+  const uint64_t splits = options_.firstSplits
+                              ? options_.firstSplits
+                              : loops.vertexCount() * (areFew ? kSplitsOfFew : kSplitsOfMany);
   work.phase(from, direct ? to : from + 0.2 * (to - from));
-  if (!lookForFirst()) return false;
-  Optimum optimum;
-  const bool good =
-      solveByDomains(task_, direct || splits > kUnlimited / n ? kUnlimited : splits * n, optimum);
-  raise(optimum.lowerBound);
-  if (!good) return false;
-  if (optimum.reached) {
-    best_.offer(std::move(optimum.order), optimum.cost);
-    raise(optimum.cost);
-    return true;
+  if (!lookForFirst(areFew ? kFirstTriesOfFew : kFirstTries)) return false;
+  if (direct || areFew || splits == kUnlimited) {
+    Optimum optimum;
+    const bool good = solveByDomains(task_, direct ? kUnlimited : splits, optimum);
+    raise(optimum.lowerBound);
+    if (!good) return false;
+    if (optimum.reached) {
+      best_.offer(std::move(optimum.order), optimum.cost);
+      raise(optimum.cost);
+      return true;
+    }
   }
   work.phase(from + 0.2 * (to - from), to);
-  return solveByFans();
+  return worst ? solveWorst(splits) : solveByFans(splits);
 }
 
 }  // namespace
@@ -200,9 +240,15 @@ bool solveSurface(const LoopSet& loops, const CandidateSet& set, const SolveOpti
   handBack(first, false);
   if (!worstKnown || !surface.found) return worstKnown;
   const double cap = first.best().cost() + kAngleTie;
-  std::vector<double> weight = set.weight;
-  for (size_t t = 0; t < weight.size(); ++t)
-    if (angle[t] > cap) weight[t] = kInfinity;
+  std::vector<double> weight(set.size(), kInfinity);
+  if (loops.loopCount() > 1 && !isLarge(loops, set)) {
+    std::vector<uint32_t> kept;
+    if (!FanFilter(loops, set, angle, work).filter(cap, kept)) return false;
+    for (const uint32_t t : kept) weight[t] = set.weight[t];
+  } else {
+    for (size_t t = 0; t < weight.size(); ++t)
+      if (angle[t] <= cap) weight[t] = set.weight[t];
+  }
   const Task sum{loops, set, weight, Measure::sum(options.dihedralWeight, cap), work, false};
   PassSolver second(sum, options, surface);
   const bool done = second.run(0.5, 1);

@@ -18,9 +18,6 @@ struct Surface {
   uint64_t domains = 0, minimalSets = 0;
 };
 
-/// Of a first try by domains alone. Fans cost in proportion to the vertices as well.
-constexpr uint64_t kSplitsPerVertex = 10000;
-
 struct SolveOptions {
   double dihedralWeight = 1;
   Objective objective = Objective::Sum;
@@ -28,9 +25,9 @@ struct SolveOptions {
   bool anytime = false;
   /// [3m] vertices of a surface to begin from, or empty; it need not be one any more.
   ArrayView<const uint32_t> start;
-  /// Splits of domains after which several loops are bounded by their fans first; what it is changes
-  /// the time, not the result.
-  uint64_t splitsPerVertex = kSplitsPerVertex;
+  /// Splits of domains to try first before bounding several loops by their fans, kUnlimited for never,
+  /// 0 for what is usual. What it is changes the time, not the result.
+  uint64_t firstSplits = 0;
   /// Is told of every surface that is better in the objective than the one before, or null.
   SurfaceListener* listener = nullptr;
 };
