@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "polygon/insertion_order.h"
 #include "polygon/turn.h"
 
 namespace sf {
@@ -22,6 +23,30 @@ void ConstrainedMesh::reset(double side, int exponent, size_t size) {
   for (uint32_t v = 0; v < 3; ++v) mesh.edgeFrom[v] = h + v;
   mesh.edgeFrom[3] = g + 2;
   touch(0), touch(1);
+}
+
+bool ConstrainedMesh::insertAll(std::vector<uint32_t>& vertices, ArrayView<const uint32_t> ringNext,
+                                Work& work, uint32_t& refused, Obstacle& obstacle) {
+  sortForInsertion(mesh.metric, vertices);
+  uint32_t near = 0;
+  for (const uint32_t v : vertices) {
+    refused = v;
+    if (!insertPoint(v, near, obstacle)) return false;
+    legalize(kNone);
+    forgetChanges();
+    near = v;
+    if (!work.tick(1500)) return false;
+  }
+  for (const uint32_t v : vertices) {
+    refused = v;
+    if (ringNext[v] == kNone) continue;
+    if (!insertEdge(v, ringNext[v], obstacle)) return false;
+    next[v] = ringNext[v], prev[ringNext[v]] = v;
+    legalizeChanged(kNone);
+    forgetChanges();
+    if (!work.tick(300)) return false;
+  }
+  return true;
 }
 
 void ConstrainedMesh::setPosition(uint32_t v, Point2 p) {

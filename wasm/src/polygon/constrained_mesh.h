@@ -36,6 +36,12 @@ class ConstrainedMesh {
   /// Places vertex v, which is not in the triangles.
   void setPosition(uint32_t v, Point2 p);
 
+  /// Makes vertices of an empty box vertices of the triangles, and then fixes the edges v - ringNext[v] of
+  /// all that have such; constrained Delaunay. False if `obstacle` is in the way of vertex `refused` or
+  /// of its edge, or, with no obstacle, when the work ended. Near-linear but for unnatural inputs.
+  ///   vertices  reordered
+  bool insertAll(std::vector<uint32_t>& vertices, ArrayView<const uint32_t> ringNext, Work& work,
+                 uint32_t& refused, Obstacle& obstacle);
   /// Makes v a vertex of the triangles, walking to it from vertex `near`.
   bool insertPoint(uint32_t v, uint32_t near, Obstacle& obstacle);
   /// Takes v, of which no edge is fixed, out of the triangles.

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/charge.h"
-#include "polygon/hilbert_order.h"
 #include "polygon/turn.h"
 
 namespace sf {
@@ -110,28 +109,11 @@ Outcome PolygonSession::build(Work& work) {
   mesh_.next.assign(mesh_.at.size(), kNone), mesh_.prev.assign(mesh_.at.size(), kNone);
   for (const uint32_t v : vertices) mesh_.setPosition(v, mesh_.at[v]);
 
-  const auto ended = [&](uint32_t units) {
-    return work.tick(units) ? Outcome{} : Outcome{work.status()};
-  };
-  sortAlongHilbertCurve(mesh_.mesh.metric, vertices);
-  uint32_t near = 0;
   Obstacle obstacle;
-  for (const uint32_t v : vertices) {
-    if (!mesh_.insertPoint(v, near, obstacle)) return refusal(v, obstacle);
-    mesh_.legalize(kNone);
-    mesh_.forgetChanges();
-    near = v;
-    if (!work.tick(2000)) return ended(0);
-  }
-  for (const uint32_t v : vertices) {
-    if (ring_[v] == kIsland) continue;
-    if (!mesh_.insertEdge(v, edges[v], obstacle)) return refusal(v, obstacle);
-    link(v, edges[v]);
-    mesh_.legalizeChanged(kFlips);
-    mesh_.forgetChanges();
-    if (!work.tick(300)) return ended(0);
-  }
-  near_ = near;
+  uint32_t refused;
+  if (!mesh_.insertAll(vertices, edges, work, refused, obstacle))
+    return work.going() ? refusal(refused, obstacle) : Outcome{work.status()};
+  near_ = vertices[0];
   const Outcome outcome = findInsideAnew();
   if (!outcome.ok()) return outcome;
 
@@ -144,7 +126,7 @@ Outcome PolygonSession::build(Work& work) {
     if (twins[h] != kNone && (inside_[h / 3] == 0 || mesh_.isFixed(h))) twins[h] = kNone;
   linkStrips(twins, work, mesh_.links);
   mesh_.forgetChanges();
-  return ended(0);
+  return Outcome{work.status()};
 }
 
 /// What is wrong, with the vertices concerned.

@@ -4,7 +4,8 @@
 
 #include "base/charge.h"
 #include "base/predicates.h"
-#include "polygon/hilbert_order.h"
+#include "polygon/delaunay_insertion.h"
+#include "polygon/insertion_order.h"
 
 namespace sf {
 namespace {
@@ -202,7 +203,7 @@ bool TrapezoidTriangulator::insertIslands(const LinkedPolygon& linked, const Vis
   for (const uint32_t v : seen.order)
     if (linked.kind[v] == VertexKind::Island) islands_.push_back(v);
   if (islands_.empty()) return true;
-  sortAlongHilbertCurve(mesh_.at, islands_);
+  sortForInsertion(mesh_.at, islands_);
   mesh_.findEdges();
   // Few flips are needed for each on average; a limit guards against inputs made to need many.
   uint32_t budget = uint32_t(kFlipsForIslands * islands_.size() + mesh_.corners.size());
@@ -222,6 +223,27 @@ bool TrapezoidTriangulator::insertIslands(const LinkedPolygon& linked, const Vis
     near = v;
   }
   return true;
+}
+
+/// Flips for better angles, and inserts the islands.
+bool TrapezoidTriangulator::improve(const LinkedPolygon& linked, const Visibility& seen,
+                                    double flips, bool islands, Work& work) {
+  const uint32_t nodes = uint32_t(linked.at.size());
+  Charge charge(work);
+  if (!charge.add(8 * uint64_t(mesh_.corners.size()))) return false;
+  mesh_.at = mesh_.metric = linked.at;
+  if (!scaleMetric(linked.at, scaled_)) mesh_.metric = scaled_;
+  mesh_.unused.clear();
+  if (!islands) mesh_.edgeFrom.clear();
+  if (!findTwins(mesh_.corners, nodes, work, mesh_.twins)) return false;
+  edges_.clear();
+  for (uint32_t h = 0; h < mesh_.corners.size(); ++h)
+    if (mesh_.twins[h] != kNone && h < mesh_.twins[h]) edges_.push_back(h);
+  const uint32_t budget = uint32_t(flips * double(mesh_.corners.size() / 3));
+  const uint32_t left = legalize(mesh_, edges_, budget, work);
+  if (budget > 0 && left == 0 && delaunayByInsertion(linked, work, mesh_.corners))
+    return findTwins(mesh_.corners, nodes, work, mesh_.twins);
+  return work.going() && insertIslands(linked, seen, work);
 }
 
 bool TrapezoidTriangulator::triangulate(const LinkedPolygon& linked, const Visibility& seen,
@@ -246,23 +268,11 @@ bool TrapezoidTriangulator::triangulate(const LinkedPolygon& linked, const Visib
   }
   corners.resize(size_t(out - corners.data()));
 
-  mesh_.at = mesh_.metric = linked.at;
-  if (!scaleMetric(linked.at, scaled_)) mesh_.metric = scaled_;
-  mesh_.unused.clear();
-  if (!charge.add(4 * uint64_t(corners.size()))) return false;
-  const uint32_t budget = uint32_t(flips * double(corners.size() / 3));
   bool islands = false;
   for (const VertexKind kind : linked.kind) islands |= kind == VertexKind::Island;
-  if (budget > 0 || islands) {
-    if (!findTwins(corners, uint32_t(nodes), work, mesh_.twins)) return false;
-    if (!islands) mesh_.edgeFrom.clear();
-    edges_.clear();
-    for (uint32_t h = uint32_t(corners.size()); h-- > 0;)
-      if (mesh_.twins[h] != kNone && h < mesh_.twins[h]) edges_.push_back(h);
-    legalize(mesh_, edges_, budget, work);
-    if (!insertIslands(linked, seen, work)) return false;
-    if (forStrips) removeEars();
-  }
+  if ((flips > 0 || islands || forStrips) && !improve(linked, seen, flips, islands, work))
+    return false;
+  if (forStrips) removeEars();
   triangles.insert(triangles.end(), corners.begin(), corners.end());
   return work.going();
 }

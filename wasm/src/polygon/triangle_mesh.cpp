@@ -5,6 +5,12 @@
 #include "polygon/turn.h"
 
 namespace sf {
+namespace {
+
+// Edges done with are dropped now and then.
+constexpr size_t kForget = 1u << 16;
+
+}  // namespace
 
 bool findTwins(ArrayView<const uint32_t> corners, uint32_t vertexCount, Work& work,
                std::vector<uint32_t>& twins) {
@@ -140,15 +146,19 @@ void TriangleMesh::insert(Place place, uint32_t v, std::vector<uint32_t>& opposi
 }
 
 uint32_t legalize(TriangleMesh& mesh, std::vector<uint32_t>& edges, uint32_t budget, Work& work) {
-  while (!edges.empty() && budget > 0) {
-    const uint32_t h = edges.back();
-    edges.pop_back();
+  // First come, first served, so that a budget is spent on all of the mesh.
+  for (size_t i = 0; i < edges.size() && budget > 0; ++i) {
+    const uint32_t h = edges[i];
     if (!work.tick(32)) break;
     if (!mesh.isIllegal(h)) continue;
     const uint32_t g = mesh.twins[h];
     mesh.flip(h);
     --budget;
     edges.insert(edges.end(), {h, prevInTriangle(h), g, prevInTriangle(g)});
+    if (i >= kForget) {
+      edges.erase(edges.begin(), edges.begin() + ptrdiff_t(i) + 1);
+      i = size_t(-1);
+    }
   }
   edges.clear();
   return budget;

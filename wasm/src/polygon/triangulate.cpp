@@ -1,7 +1,11 @@
 #include "polygon/triangulate.h"
 
 #include "base/charge.h"
+#include "polygon/certificate.h"
+#include "polygon/delaunay_flips.h"
 #include "polygon/flood.h"
+#include "polygon/link_rings.h"
+#include "polygon/repair.h"
 #include "polygon/strips.h"
 #include "polygon/sweep.h"
 #include "polygon/trapezoidation.h"
@@ -9,8 +13,21 @@
 namespace sf {
 namespace {
 
-// Flips a triangle that improve angles after the u-trees: nearly all gain is made by then.
-constexpr double kFlips = 1;
+// Flips a triangle after the u-trees, before the method of improving angles is changed.
+constexpr double kFlips = 2;
+
+bool isFault(Status status) {
+  switch (status) {
+    case Status::SelfIntersecting:
+    case Status::HoleOutside:
+    case Status::HolesOverlap:
+    case Status::NestedHole:
+    case Status::DegeneratePolygon:
+      return true;
+    default:
+      return false;
+  }
+}
 
 }  // namespace
 
@@ -18,64 +35,192 @@ struct PolygonTriangulator::State {
   PlaneSweep sweep;
   Flood flood;
   TrapezoidTriangulator trapezoids;
+  DelaunayFlips flips;
   LinkedPolygon loops;
   Visibility seen;
+  Certificate certificate;
+  std::vector<uint32_t> nodes, starts;
 
-  Outcome flooding(const PolygonView& polygon, const PolygonOptions& options, Work& work,
-                   std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace);
-  Outcome byTrapezoids(const PolygonView& polygon, bool strips, Work& work,
-                       std::vector<uint32_t>& triangles);
+  Outcome append(const PolygonView& polygon, const PolygonOptions& options, Work& work,
+                 std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace);
+  bool triangulateLoops(const PolygonOptions& options, Work& work, std::vector<uint32_t>& triangles,
+                        std::vector<FloodStep>* trace);
+  Outcome appendRepaired(const PolygonView& polygon, const PolygonOptions& options, Work& work,
+                         PolygonTriangulation& result);
+  bool isCertain(const PolygonView& polygon, ArrayView<const uint32_t> triangles, Work& work);
 };
 
 PolygonTriangulator::PolygonTriangulator() : state_(new State) {}
 PolygonTriangulator::~PolygonTriangulator() = default;
 
-Outcome PolygonTriangulator::State::flooding(const PolygonView& polygon,
-                                             const PolygonOptions& options, Work& work,
-                                             std::vector<uint32_t>& triangles,
-                                             std::vector<FloodStep>* trace) {
-  Outcome outcome = sweep.run(polygon, true, work, loops, seen);
-  if (!outcome.ok()) return outcome;
-  const size_t before = triangles.size();
-  if (!flood.run(loops, seen, work, triangles, trace)) {
-    SF_ASSERT(!work.going());
-    triangles.resize(before);
-    outcome.status = work.going() ? Status::SelfIntersecting : work.status();
-    return outcome;
-  }
-  triangles.insert(triangles.end(), loops.flat.begin(), loops.flat.end());
-  (void)options;
-  return outcome;
+/// Appends the triangles of the linked loops, as nodes.
+bool PolygonTriangulator::State::triangulateLoops(const PolygonOptions& options, Work& work,
+                                                  std::vector<uint32_t>& triangles,
+                                                  std::vector<FloodStep>* trace) {
+  const bool flooding = options.method == PolygonMethod::Flooding;
+  const auto run = [&](std::vector<uint32_t>& to) {
+    return flooding ? flood.run(loops, seen, work, to, trace)
+                    : trapezoids.triangulate(loops, seen, kFlips, options.strips, work, to);
+  };
+  if (!options.delaunay) return run(triangles);
+  nodes.clear();
+  if (!run(nodes) || !flips.run(loops, work, nodes)) return false;
+  triangles.insert(triangles.end(), nodes.begin(), nodes.end());
+  return true;
 }
 
-Outcome PolygonTriangulator::State::byTrapezoids(const PolygonView& polygon, bool strips,
-                                                 Work& work, std::vector<uint32_t>& triangles) {
-  Outcome outcome = sweep.run(polygon, false, work, loops, seen);
-  if (!outcome.ok()) return outcome;
-  const size_t before = triangles.size();
-  if (!trapezoids.triangulate(loops, seen, kFlips, strips, work, triangles)) {
-    triangles.resize(before);
+/// Appends the triangles of one polygon, as its vertices.
+Outcome PolygonTriangulator::State::append(const PolygonView& polygon,
+                                           const PolygonOptions& options, Work& work,
+                                           std::vector<uint32_t>& triangles,
+                                           std::vector<FloodStep>* trace) {
+  Charge charge(work);
+  const size_t n = (polygon.positions.size() + polygon.points.size()) / 2,
+               before = triangles.size();
+  Outcome outcome;
+  if (!charge.add(n * (sizeof(Point2) + 10 * sizeof(uint32_t)))) {
     outcome.status = work.status();
     return outcome;
   }
-  for (size_t i = before; i < triangles.size(); ++i) triangles[i] = loops.vertex[triangles[i]];
-  triangles.insert(triangles.end(), loops.flat.begin(), loops.flat.end());
+  const bool sagsOnly = options.method == PolygonMethod::Flooding;
+  outcome = sweep.run(polygon, sagsOnly, work, loops, seen);
+  if (!outcome.ok()) return outcome;
+  bool done = triangulateLoops(options, work, triangles, trace);
+  if (done && loops.at.size() > n) {
+    for (size_t i = before; i < triangles.size(); ++i) triangles[i] = loops.vertex[triangles[i]];
+    if (trace)
+      for (FloodStep& step : *trace)
+        step.left = loops.vertex[step.left], step.right = loops.vertex[step.right];
+  }
+  if (done) triangles.insert(triangles.end(), loops.flat.begin(), loops.flat.end());
+  if (done && options.verify)
+    done = isCertain(polygon, {triangles.data() + before, triangles.size() - before}, work);
+  if (!done) {
+    SF_ASSERT(!work.going());
+    triangles.resize(before);
+    outcome.status = work.going() ? Status::SelfIntersecting : work.status();
+  }
+  return outcome;
+}
+
+/// Whether the triangles and those of the complement prove each other right.
+bool PolygonTriangulator::State::isCertain(const PolygonView& polygon,
+                                           ArrayView<const uint32_t> triangles, Work& work) {
+  Charge charge(work);
+  const uint32_t n = uint32_t(polygon.positions.size() / 2);
+  const uint32_t p = uint32_t(polygon.points.size() / 2);
+  if (!charge.add((uint64_t(n) + p) * 60)) return false;
+  Certificate& c = certificate;
+  c.at.clear(), c.rings.clear(), c.complement.clear();
+  for (const ArrayView<const double> xy : {polygon.positions, polygon.points})
+    for (size_t i = 0; i < xy.size(); i += 2) c.at.push_back({xy[i], xy[i + 1]});
+  c.at.resize(size_t(n) + p + 4);
+  frameAround(polygon, c.at.data() + n + p);
+  c.inside.assign(triangles.begin(), triangles.end());
+  sweep.findEqual(c.same);
+  for (uint32_t k = 0; k < 4; ++k) c.same.push_back(n + p + k);
+  for (uint32_t r = 0; r + 1 < polygon.starts.size(); ++r)
+    for (uint32_t v = polygon.starts[r], last = polygon.starts[r + 1] - 1; v <= last; ++v) {
+      const uint32_t w = v == last ? polygon.starts[r] : v + 1;
+      const bool turned = sweep.reversed()[r];
+      c.rings.push_back(turned ? w : v), c.rings.push_back(turned ? v : w);
+    }
+  if (!sweep.runComplement(polygon, work, loops, seen).ok()) return false;
+  if (!flood.run(loops, seen, work, c.complement, nullptr)) return false;
+  c.complement.insert(c.complement.end(), loops.flat.begin(), loops.flat.end());
+  const auto pointOf = [&](uint32_t node) { return node < n ? node : node + p; };
+  for (uint32_t& v : c.complement) v = pointOf(loops.vertex[v]);
+  return certify(c, work);
+}
+
+/// Triangulates what repair makes of the polygon.
+Outcome PolygonTriangulator::State::appendRepaired(const PolygonView& polygon,
+                                                   const PolygonOptions& options, Work& work,
+                                                   PolygonTriangulation& result) {
+  RepairedPolygons repaired;
+  Outcome outcome = repairPolygon(polygon, options.repair, work, repaired);
+  if (!outcome.ok()) return outcome;
+  const uint32_t n = uint32_t(polygon.positions.size() / 2);
+  std::vector<double> positions;
+  for (size_t p = 0; p + 1 < repaired.polygonStarts.size(); ++p) {
+    const uint32_t firstRing = repaired.polygonStarts[p], endRing = repaired.polygonStarts[p + 1];
+    const uint32_t first = repaired.ringStarts[firstRing];
+    positions.clear(), starts.clear();
+    for (uint32_t r = firstRing; r <= endRing; ++r)
+      starts.push_back(repaired.ringStarts[r] - first);
+    for (uint32_t i = first; i < repaired.ringStarts[endRing]; ++i) {
+      const uint32_t v = repaired.vertices[i];
+      const double* xy =
+          v < n ? polygon.positions.data() + 2 * size_t(v) : &repaired.added[2 * size_t(v - n)];
+      positions.insert(positions.end(), xy, xy + 2);
+    }
+    const size_t before = result.triangles.size();
+    outcome = append({positions, starts, {}}, options, work, result.triangles, nullptr);
+    if (!outcome.ok()) return outcome;
+    for (size_t i = before; i < result.triangles.size(); ++i)
+      result.triangles[i] = repaired.vertices[first + result.triangles[i]];
+  }
+  result.added.swap(repaired.added), result.addedOn.swap(repaired.addedOn);
   return outcome;
 }
 
 Outcome PolygonTriangulator::triangulate(const PolygonView& polygon, const PolygonOptions& options,
                                          Work& work, PolygonTriangulation& result) {
   result = {};
-  Outcome outcome = options.method == PolygonMethod::Trapezoids
-                        ? state_->byTrapezoids(polygon, options.strips, work, result.triangles)
-                        : state_->flooding(polygon, options, work, result.triangles,
-                                           options.trace ? &result.trace : nullptr);
+  Outcome outcome = state_->append(polygon, options, work, result.triangles,
+                                   options.trace ? &result.trace : nullptr);
+  if (isFault(outcome.status) && options.repair != Repair::None)
+    outcome = state_->appendRepaired(polygon, options, work, result);
   if (!outcome.ok() || !options.strips) return outcome;
-  const uint32_t vertices = uint32_t((polygon.positions.size() + polygon.points.size()) / 2);
+  const uint32_t vertices =
+      uint32_t((polygon.positions.size() + polygon.points.size() + result.added.size()) / 2);
   std::vector<uint32_t> twins;
   if (!findTwins(result.triangles, vertices, work, twins) ||
       !makeStrips(result.triangles, twins, work, result.strips, result.stripStarts))
     outcome.status = work.status();
+  return outcome;
+}
+
+Outcome PolygonTriangulator::triangulateBatch(const PolygonBatch& batch,
+                                              const PolygonOptions& options, Work& work,
+                                              PolygonBatchResult& result) {
+  result = {};
+  Outcome outcome;
+  outcome.status = Status::BadStarts;
+  const ArrayView<const uint32_t> rings = batch.ringStarts, polygons = batch.polygonStarts;
+  const size_t vertices = batch.positions.size() / 2;
+  if (rings.empty() || polygons.empty() || polygons[0] != 0 || rings[0] != 0) return outcome;
+  if (polygons[polygons.size() - 1] != rings.size() - 1) return outcome;
+  if (rings[rings.size() - 1] != vertices) return outcome;
+  for (size_t p = 0; p + 1 < polygons.size(); ++p)
+    if (polygons[p] > polygons[p + 1]) return outcome;
+  for (size_t r = 0; r + 1 < rings.size(); ++r)
+    if (rings[r] > rings[r + 1]) return outcome;
+  outcome.status = Status::Ok;
+  Charge charge(work);
+  if (!charge.add(14 * uint64_t(vertices))) {
+    outcome.status = work.status();
+    return outcome;
+  }
+  result.triangles.reserve(3 * vertices);
+  result.triangleStarts.push_back(0);
+  PolygonOptions each = options;
+  each.strips = each.trace = false, each.repair = Repair::None;
+  std::vector<uint32_t>& starts = state_->starts;
+  for (uint32_t p = 0; p + 1 < polygons.size(); ++p) {
+    const uint32_t first = rings[polygons[p]], end = rings[polygons[p + 1]];
+    starts.clear();
+    for (uint32_t r = polygons[p]; r <= polygons[p + 1]; ++r) starts.push_back(rings[r] - first);
+    const size_t before = result.triangles.size();
+    const PolygonView view{
+        batch.positions.slice(2 * size_t(first), 2 * size_t(end - first)), starts, {}};
+    if (starts.size() > 1) outcome = state_->append(view, each, work, result.triangles, nullptr);
+    if (!work.going()) return outcome;
+    if (!outcome.ok()) result.faults.push_back({p, outcome});
+    outcome = {};
+    for (size_t i = before; i < result.triangles.size(); ++i) result.triangles[i] += first;
+    result.triangleStarts.push_back(uint32_t(result.triangles.size() / 3));
+  }
   return outcome;
 }
 
