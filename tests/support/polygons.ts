@@ -314,6 +314,8 @@ export function flatPolygon(polygon: Polygon2): { positions: Float64Array; start
   const starts = new Uint32Array(polygon.length + 1);
   polygon.forEach((ring, r) => (starts[r + 1] = starts[r] + ring.length));
   const positions = new Float64Array(2 * starts[polygon.length]);
-  polygon.flat().forEach((point, v) => positions.set(point, 2 * v));
+  polygon.flat().forEach((point, v) => {
+    positions.set(point, 2 * v);
+  });
   return { positions, starts };
 }

@@ -3,6 +3,7 @@
 //   filter     only the cases whose name holds all these words
 //   --figures  all cases and the optimality suite; then draws the figures and the README's table anew
 //   --draw     draws them from the last results
+// npm run bench -- polygons [filter…]: triangulators of polygons, ours and others.
 import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { availableParallelism, loadavg } from 'node:os';
 import path from 'node:path';
@@ -27,12 +28,12 @@ const bench = path.join(root, 'tests/bench');
 const figures = path.join(bench, 'figures');
 const folder = path.join(buildRoot, 'bench');
 const results = path.join(folder, 'results.json');
-/** tests/bench/cases.ts as a module that this Node can run, and its inputs as curve files. */
-async function prepare() {
+/** A module of tests/bench as one that this Node can run; returns where. */
+async function compiled(name) {
   const { build } = await import('esbuild');
-  const outfile = path.join(folder, 'cases.mjs');
+  const outfile = path.join(folder, `${name}.mjs`);
   await build({
-    entryPoints: [path.join(bench, 'cases.ts')],
+    entryPoints: [path.join(bench, `${name}.ts`)],
     bundle: true,
     platform: 'node',
     format: 'esm',
@@ -40,7 +41,7 @@ async function prepare() {
     outfile,
     logLevel: 'warning',
   });
-  return import(pathToFileURL(outfile).href);
+  return outfile;
 }
 
 /** Writes loops as a curve file, every digit kept; returns where. */
@@ -99,7 +100,9 @@ async function measure(words, wantsAll) {
   await buildPreset('native-release');
   await buildLibrary();
   mkdirSync(folder, { recursive: true });
-  const { allCases, dragLoops, optimalityLoops, pictureLoops } = await prepare();
+  const { allCases, dragLoops, optimalityLoops, pictureLoops } = await import(
+    pathToFileURL(await compiled('cases')).href
+  );
   const found = { node: process.versions.node, processors: availableParallelism(), load: [loadavg()[0]] };
   found.cases = [];
   const chosen = allCases().filter((c) => wanted(c.id));
@@ -125,9 +128,14 @@ async function measure(words, wantsAll) {
   found.pictures = pictureLoops().map((loops, i) => writeCurves(`picture_${i}`, loops));
   found.load.push(loadavg()[0]);
   writeFileSync(results, `${JSON.stringify(found, null, 1)}\n`);
-  say(`\nLoad ${found.load.map((l) => l.toFixed(1)).join(' to ')} on ${found.processors} processors, Node ${found.node}. Written: ${path.relative(root, results)}`);
-  if (chosen.length === 0 && !found.drag && !found.optimality) throw new Failure('No case has that name.');
-  const failed = found.cases.filter((c) => disagreement(c) || [c.native, c.wasm].some((s) => s?.problem === 'FAILED'));
+  const load = found.load.map((l) => l.toFixed(1)).join(' to ');
+  say(`\nLoad ${load} on ${found.processors} processors, Node ${found.node}.`);
+  say(`Written: ${path.relative(root, results)}`);
+  if (chosen.length === 0 && !found.drag && !found.optimality) {
+    throw new Failure('No case has that name.');
+  }
+  const isBroken = (c) => [c.native, c.wasm].some((side) => side?.problem === 'FAILED');
+  const failed = found.cases.filter((c) => disagreement(c) || isBroken(c));
   if (failed.length > 0) throw new Failure(`Failed or not alike: ${failed.map((c) => c.id).join(', ')}`);
 }
 
@@ -166,10 +174,20 @@ async function takePictures() {
   }
 }
 
+async function measurePolygons(words) {
+  await buildLibrary();
+  mkdirSync(folder, { recursive: true });
+  const module = await compiled('polygon_cases');
+  const file = path.join(folder, 'polygons.json');
+  await run(process.execPath, [path.join(bench, 'polygon.bench.mjs'), module, file, ...words]);
+  say(`\nWritten: ${path.relative(root, file)}`);
+}
+
 await main(async () => {
   checkNode();
   await ensureTools(['emcc', 'cmake', 'ninja', 'compiler']);
   const words = process.argv.slice(2);
+  if (words[0] === 'polygons') return measurePolygons(words.slice(1));
   const wants = (flag) => words.includes(flag);
   if (!wants('--draw')) await measure(words.filter((word) => !word.startsWith('--')), wants('--figures'));
   if (wants('--draw') || wants('--figures')) await draw();

@@ -1,0 +1,158 @@
+// npm run bench -- polygons [words…]: triangulators of polygons on the same inputs, in the same process,
+// in turns. Medians of warm runs; copies into and out of WebAssembly are in the times.
+//   node polygon.bench.mjs <cases.mjs> <results.json> [words…]     all cases whose id holds the words
+//   node polygon.bench.mjs <cases.mjs> --case <id>                 one case, as a line of JSON
+import { spawnSync } from 'node:child_process';
+import { writeFileSync } from 'node:fs';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { load, triangulatePolygon } from 'soapfilm';
+import { measureSessions } from './polygon_sessions.mjs';
+import { angles, degrees, greedyStrips, maximumDegree } from './polygon_quality.mjs';
+import { goals, kColumns, row, exponents } from './polygon_report.mjs';
+import { kEngines } from './polygon_engines.mjs';
+
+/** Time for the warm runs of all engines of a case together. */
+const kSeconds = 3;
+const kMostRuns = 41;
+/** An engine whose first run takes longer is run once more, or not at all; the shorter run counts. */
+const kDear = 2;
+const kVeryDear = 10;
+/** A case that takes longer is given up. */
+const kMostSeconds = 120;
+
+/** Watches the memory of the core's instances, which the package does not show: `peak()` bytes so far. */
+function watchMemory() {
+  const { Instance, instantiate } = WebAssembly;
+  let memory;
+  let peak = 0;
+  const look = () => (peak = Math.max(peak, memory?.buffer.byteLength ?? 0));
+  const keep = (instance) => {
+    look();
+    memory = instance.exports.memory;
+    return instance;
+  };
+  WebAssembly.Instance = function (...given) {
+    return keep(new Instance(...given));
+  };
+  WebAssembly.instantiate = async (...given) => keep(await instantiate(...given));
+  return look;
+}
+
+const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
+
+function timed(run) {
+  const start = performance.now();
+  run();
+  return (performance.now() - start) / 1000;
+}
+
+/** Medians of seconds for each engine; a string where one fails. */
+function race(runs, peak) {
+  const seconds = {};
+  const times = new Map();
+  let peakBytes;
+  for (const [name, run] of runs) {
+    try {
+      const first = timed(run);
+      peakBytes ??= peak();
+      times.set(name, first > kDear ? [first] : []);
+      if (first > kDear) seconds[name] = first > kVeryDear ? first : Math.min(first, timed(run));
+    } catch (error) {
+      seconds[name] = `fails: ${error.code ?? error.message}`;
+    }
+  }
+  const going = runs.filter(([name]) => times.get(name)?.length === 0);
+  const end = performance.now() + 1000 * kSeconds;
+  for (let round = 0; round < kMostRuns && (round < 3 || performance.now() < end); round++) {
+    // The first round warms up: engines and their compilers take a few calls.
+    for (const [name, run] of going) {
+      const took = timed(run);
+      if (round > 0) times.get(name).push(took);
+    }
+  }
+  for (const [name] of going) seconds[name] = median(times.get(name));
+  return { seconds, peakBytes };
+}
+
+function look(polygon, points, run) {
+  const positions = Float64Array.from([...polygon.flat(), ...(points ?? [])].flat());
+  const triangles = run().flat(2);
+  return { ...angles(positions, triangles), degree: maximumDegree(triangles) };
+}
+
+function qualities(polygons, points) {
+  const [polygon] = polygons;
+  const found = {};
+  const names = points
+    ? ['flooding', 'trapezoids', 'delaunay']
+    : ['flooding', 'trapezoids', 'delaunay', 'earcut', 'earcut, refined', 'cdt2d'];
+  const flat = points && Float64Array.from(points.flat());
+  for (const name of names) {
+    const run = kEngines[name].prepare(polygons, flat);
+    found[name] = look(polygon, points, () => [...run()]);
+  }
+  const options = { method: 'trapezoids', output: 'strips' };
+  const starts = Uint32Array.of(0, polygon[0].length);
+  const positions = Float64Array.from(polygon.flat(2));
+  const { triangles, strips, stripStarts } = triangulatePolygon(
+    { positions, starts, ...(points && { points: flat }) },
+    options,
+  );
+  const m = triangles.length / 3;
+  return {
+    ...found,
+    strips: {
+      indices: strips.length / m,
+      length: m / (stripStarts.length - 1),
+      greedyLength: m / greedyStrips(triangles),
+      ...degrees(positions, points, triangles),
+    },
+  };
+}
+
+async function measureCase(c) {
+  const peak = watchMemory();
+  await load();
+  const { polygons, points } = c.make();
+  const n = polygons.flat(2).length + (points?.length ?? 0);
+  const inner = points && Float64Array.from(points.flat());
+  const names = Object.keys(kEngines).filter((name) => {
+    if (name === 'one by one') return c.oneByOne;
+    const takesPoints = ['flooding', 'trapezoids', 'delaunay', 'verify', 'strips'].includes(name);
+    return points ? takesPoints : n / polygons.length <= kEngines[name].most;
+  });
+  // Flooding first, so that the peak is its own.
+  const runs = names.map((name) => [name, kEngines[name].prepare(polygons, inner)]);
+  const found = race(runs, peak);
+  return { n, polygons: polygons.length, ...found, ...(c.quality && { quality: qualities(polygons, points) }) };
+}
+
+function measureApart(module, c) {
+  const args = [fileURLToPath(import.meta.url), module, '--case', c.id];
+  const { status, stdout, stderr } = spawnSync(process.execPath, ['--stack-size=4000', ...args], {
+    encoding: 'utf8',
+    timeout: 1000 * kMostSeconds,
+    maxBuffer: 2 ** 26,
+  });
+  if (status !== 0) return { problem: status === null ? `> ${kMostSeconds} s` : stderr.slice(-500) };
+  return JSON.parse(stdout);
+}
+
+const [, , module, second, ...words] = process.argv;
+const { polygonCases } = await import(pathToFileURL(module).href);
+if (second === '--case') {
+  const c = polygonCases().find(({ id }) => id === words.join(' '));
+  console.log(JSON.stringify(await measureCase(c)));
+} else {
+  const wanted = polygonCases().filter(({ id }) => words.every((word) => id.includes(word)));
+  console.log(kColumns);
+  const results = wanted.map((c) => {
+    const { id, family, ratio, limit } = c;
+    const result = { id, family, ratio, limit, ...measureApart(module, c) };
+    console.log(row(result));
+    return result;
+  });
+  const sessions = words.length === 0 || words.includes('session') ? await measureSessions(module) : [];
+  for (const lines of [exponents(results), goals(results, sessions)]) console.log(`\n${lines.join('\n')}`);
+  writeFileSync(second, `${JSON.stringify({ node: process.versions.node, results, sessions }, null, 1)}\n`);
+}

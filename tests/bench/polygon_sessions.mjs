@@ -1,0 +1,50 @@
+// One vertex moved in a PolygonSession, against triangulating anew.
+import { pathToFileURL } from 'node:url';
+import { PolygonSession, load, triangulatePolygon } from 'soapfilm';
+
+const kMoves = 400;
+const kWarm = 200;
+
+const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
+
+function timed(run) {
+  const start = performance.now();
+  run();
+  return (performance.now() - start) / 1000;
+}
+
+/** Each vertex moves by up to a third of an edge, and back. */
+function measure({ id, goal, ring, inner }) {
+  const polygon = {
+    positions: Float64Array.from(ring.flat()),
+    starts: Uint32Array.of(0, ring.length),
+    points: Float64Array.from(inner.flat()),
+  };
+  const session = new PolygonSession(polygon);
+  const moves = [];
+  const anew = [];
+  for (let i = 0; i < kWarm + kMoves; i++) {
+    const v = (i * 7919) % ring.length;
+    const [a, b] = [ring[v], ring[(v + 1) % ring.length]];
+    const to = [a[0] + (b[0] - a[0]) / 3, a[1] + (b[1] - a[1]) / 3];
+    const there = timed(() => session.move(v, to));
+    const back = timed(() => session.move(v, a));
+    if (i >= kWarm) moves.push(there, back);
+    if (i % 10 === 0) anew.push(timed(() => triangulatePolygon(polygon)));
+  }
+  const { certified } = session.read();
+  session.dispose();
+  if (!certified) throw new Error(`${id}: not certified`);
+  const [move, scratch] = [median(moves), median(anew)];
+  return { id, goal, move, scratch, share: scratch / move };
+}
+
+export async function measureSessions(module) {
+  await load();
+  const { sessionCases } = await import(pathToFileURL(module).href);
+  const found = sessionCases().map(measure);
+  for (const { id, move, scratch } of found) {
+    console.log(`${id}: moved in ${(1e6 * move).toFixed(1)} µs, anew in ${(1e6 * scratch).toFixed(0)} µs`);
+  }
+  return found;
+}
