@@ -16,7 +16,11 @@ function timeTick(seconds) {
   if (seconds >= 0.999e-3) return `${+(1000 * seconds).toPrecision(2)} ms`;
   return `${+(1e6 * seconds).toPrecision(2)} µs`;
 }
-const memoryTick = (bytes) => (bytes >= 0.999e6 ? `${+(bytes / 1e6).toPrecision(2)} MB` : `${+(bytes / 1e3).toPrecision(2)} kB`);
+
+function memoryTick(bytes) {
+  if (bytes >= 0.999e6) return `${+(bytes / 1e6).toPrecision(5)} MB`;
+  return `${+(bytes / 1e3).toPrecision(2)} kB`;
+}
 
 const measured = (series) => results.cases.filter((c) => c.series === series && c.wasm?.median);
 const authors = (k, space) =>
@@ -31,7 +35,10 @@ function curves({ series, ink, label, k, space }, value, authorsValue) {
   const exponent = fitPower(isWork)?.exponent;
   const ours = { points, ink, mark: 'line', label: { text: label, exponent } };
   const parts = [{ points: native, ink, mark: 'dotted' }, ours];
-  if (authorsValue && k) parts.push({ points: authors(k, space).map((c) => [c.n, authorsValue(c.authors)]), ink, mark: 'diamond' });
+  if (k) {
+    const theirs = authors(k, space).map((c) => [c.n, authorsValue(c.authors)]);
+    parts.push({ points: theirs, ink, mark: 'diamond' });
+  }
   return parts;
 }
 
@@ -46,7 +53,8 @@ const kLegend = [
 
 function pictures() {
   return results.pictures.map((file) => {
-    const span = spanLoops(parseLoops(readFileSync(file)), { candidates: 'delaunay', weights: { dihedral: 1 } });
+    const options = { candidates: 'delaunay', weights: { dihedral: 1 } };
+    const span = spanLoops(parseLoops(readFileSync(file)), options);
     if (!span.found) throw new Error(`${file}: no surface to show`);
     return span;
   });
@@ -59,7 +67,15 @@ function figure7(shown) {
   ];
   const sparse = [{ series: 'monkey 1 delaunay dihedral', ink: 'k2', label: '', k: 1, space: 'delaunay' }];
   const panel = (at, title, list, [value, theirs], format) =>
-    logLog({ ...at, width: 330, height: 250, title, xLabel: 'vertices', format, series: list.flatMap((s) => curves(s, value, theirs)) });
+    logLog({
+      ...at,
+      width: 330,
+      height: 250,
+      title,
+      xLabel: 'vertices',
+      format,
+      series: list.flatMap((s) => curves(s, value, theirs)),
+    });
   return drawing(920, 610, 'One curve: a monkey saddle of n vertices (figure 7)', [
     legend(20, 56, kLegend),
     surface(shown[0], { x: 24, y: 150, size: 180, from: [1.1, -1, 1.2] }),
@@ -77,11 +93,16 @@ function figure8(shown) {
   const listed = (space, numbers) =>
     numbers.map((k) => ({ series: `saddles ${k} ${space} dihedral`, ink: inkOf(k), label: '', k, space }));
   const row = (y, title, list) => {
-    const at = (column) => ({ x: 14 + 326 * column, y, width: 326, height: 250, xLabel: 'vertices of all curves' });
+    const size = { width: 326, height: 250, xLabel: 'vertices of all curves' };
+    const at = (column) => ({ x: 14 + 326 * column, y, ...size });
     const of = (value, theirs) => list.flatMap((s) => curves(s, value, theirs));
+    const counted = (series, key) =>
+      measured(series)
+        .map((c) => [c.n, c.wasm[key]])
+        .filter(([, v]) => v > 0);
     const counts = list.flatMap(({ series, ink }) => [
-      { points: measured(series).map((c) => [c.n, c.wasm.domains]), ink, mark: 'line' },
-      { points: measured(series).map((c) => [c.n, c.wasm.minimalSets]).filter(([, v]) => v > 0), ink, mark: 'dotted' },
+      { points: counted(series, 'domains'), ink, mark: 'line' },
+      { points: counted(series, 'minimalSets'), ink, mark: 'dotted' },
     ]);
     return [
       logLog({ ...at(0), title: `${title}: time`, format: timeTick, series: of(...kTime) }),
@@ -107,28 +128,41 @@ function figure9() {
   const sets = (rows, weight) =>
     [['delaunay', 'k2'], ['near', 'k5']].map(([space, ink]) => ({
       ink,
-      values: rows.filter((r) => r.weight === weight).map((r) => optimality(r, space)).filter((v) => v !== null),
+      values: rows
+        .filter((r) => r.weight === weight)
+        .map((r) => optimality(r, space))
+        .filter((v) => v !== null),
     }));
-  const even = (low, high, bins) => Array.from({ length: bins + 1 }, (_, i) => low + ((high - low) * i) / bins);
+  const even = (low, high, bins) =>
+    Array.from({ length: bins + 1 }, (_, i) => low + ((high - low) * i) / bins);
   const panel = (x, y, rows, kind, weight) => {
     const isArea = weight === 'area';
     const values = sets(rows, weight).flatMap((set) => set.values);
-    const low = Math.floor(10 * Math.min(...values)) / 10;
-    const edges = isArea ? even(Math.min(low, 0.9), 1, 10) : even(0, Math.max(2, Math.ceil(Math.max(...values) / 2) * 2), 10);
+    const low = Math.min(0.9, Math.floor(10 * Math.min(...values)) / 10);
+    const high = Math.max(2, 2 * Math.ceil(Math.max(...values) / 2));
     return histogram({
-      x, y, width: 430, height: 235,
+      x,
+      y,
+      width: 430,
+      height: 235,
       title: `${kind}: ${weight}`,
-      xLabel: isArea ? 'area of the optimum among all triples / area found' : 'degrees above the optimum, per interior edge',
-      edges, format: (v) => String(Math.round(100 * v) / 100), sets: sets(rows, weight),
+      xLabel: isArea
+        ? 'area of the optimum among all triples / area found'
+        : 'degrees above the optimum, per interior edge',
+      edges: isArea ? even(low, 1, 10) : even(0, high, 10),
+      format: (v) => String(Math.round(100 * v) / 100),
+      sets: sets(rows, weight),
     });
   };
-  const missing = [...single, ...pairs].filter((r) => r.weight === 'area' && r.delaunay.cost === null).length;
+  const isMissing = (r) => r.weight === 'area' && r.delaunay.cost === null;
+  const missing = [...single, ...pairs].filter(isMissing).length;
+  const note = missing > 0 ? `; ${missing} have no surface of Delaunay facets` : '';
   return drawing(900, 590, 'What smaller candidate spaces cost (figure 9)', [
     legend(20, 56, [
       { ink: 'k2', mark: 'bar', text: 'Delaunay facets' },
       { ink: 'k5', mark: 'bar', text: 'near triples' },
     ]),
-    text(300, 56, `random loops on closed surfaces, ${single.length / 2} inputs each${missing > 0 ? `; ${missing} have no surface of Delaunay facets` : ''}`),
+    text(300, 56, `random loops on closed surfaces, ${single.length / 2} inputs each${note}`),
     panel(10, 80, single, 'One loop of 100 to 200 vertices', 'area'),
     panel(455, 80, pairs, 'Two loops of 10 to 20 vertices', 'area'),
     panel(10, 335, single, 'One loop of 100 to 200 vertices', 'dihedral'),

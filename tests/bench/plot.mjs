@@ -17,12 +17,15 @@ const declare = (shade) =>
     .join('');
 
 const kStyle = `text{font:11px system-ui,-apple-system,"Segoe UI",sans-serif;fill:#3d4654}
-.t{font-size:15px;font-weight:600;fill:#161b22}.h{font-size:12px;font-weight:600;fill:#161b22}
+.t{font-size:15px;font-weight:600;fill:#161b22}
+.h{font-size:12px;font-weight:600;fill:#161b22}
 .e{text-anchor:end}.m{text-anchor:middle}.s{font-size:8px}
 .bg{fill:#fff}.g{stroke:#e4e8ee;fill:none}.a{stroke:#aab3c0;fill:none}
-.l{fill:none;stroke-width:1.8}.d{fill:none;stroke-width:1.2;stroke-dasharray:2 3}.o{fill:none;stroke-width:1.3}
-.f{stroke:#2b4a6b;stroke-width:.5;stroke-linejoin:round}.r{stroke:#e2662c;stroke-width:1.8;stroke-linecap:round}${declare(0)}
-@media(prefers-color-scheme:dark){text{fill:#b3bcc8}.t,.h{fill:#eef2f7}.bg{fill:#12161c}.g{stroke:#272e38}.a{stroke:#5a6572}${declare(1)}}`;
+.l{fill:none;stroke-width:1.8}.d{fill:none;stroke-width:1.2;stroke-dasharray:2 3}
+.o{fill:none;stroke-width:1.3}.f{stroke:#2b4a6b;stroke-width:.5;stroke-linejoin:round}
+.r{stroke:#e2662c;stroke-width:1.8;stroke-linecap:round}${declare(0)}
+@media(prefers-color-scheme:dark){
+text{fill:#b3bcc8}.t,.h{fill:#eef2f7}.bg{fill:#12161c}.g{stroke:#272e38}.a{stroke:#5a6572}${declare(1)}}`;
 
 const one = (value) => String(Math.round(10 * value) / 10);
 const escaped = (text) => String(text).replace(/&/g, '&amp;').replace(/</g, '&lt;');
@@ -33,16 +36,22 @@ export const text = (x, y, content, css = '') =>
 const path = (points, css) =>
   `<path class="${css}" d="M${points.map(([x, y]) => `${one(x)},${one(y)}`).join('L')}"/>`;
 
+const bar = (ink, x, y, width, height) =>
+  `<rect class="b ${ink}f" x="${one(x)}" y="${one(y)}" width="${one(width)}" height="${one(height)}"/>`;
+
 /** The whole drawing. `parts` are SVG text; the title is drawn, and told to screen readers. */
-export const drawing = (width, height, title, parts) =>
-  [
-    `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" role="img" aria-label="${escaped(title).replace(/"/g, '&quot;')}">`,
+export function drawing(width, height, title, parts) {
+  const size = `width="${width}" height="${height}" viewBox="0 0 ${width} ${height}"`;
+  const label = escaped(title).replace(/"/g, '&quot;');
+  return [
+    `<svg xmlns="http://www.w3.org/2000/svg" ${size} role="img" aria-label="${label}">`,
     `<style>${kStyle}</style>`,
     `<rect class="bg" width="${width}" height="${height}" rx="8"/>`,
     text(20, 28, title, 't'),
     ...parts,
     '</svg>\n',
   ].join('\n');
+}
 
 /** 1, 2 and 5 times powers of ten inside a range; powers alone where that is enough. */
 function logTicks(low, high) {
@@ -104,25 +113,32 @@ export function logLog({ x, y, width, height, title, xLabel, format, series }) {
   const up = logScale(drawn.flatMap(({ points }) => points.map((p) => p[1])), bottom, top);
   const parts = [text(left, y + 10, title, 'h')];
   for (const tick of up.ticks) {
-    parts.push(path([[left, up.at(tick)], [right, up.at(tick)]], 'g'), text(left - 6, up.at(tick) + 4, format(tick), 'e'));
+    const at = up.at(tick);
+    parts.push(path([[left, at], [right, at]], 'g'), text(left - 6, at + 4, format(tick), 'e'));
   }
   for (const tick of across.ticks) {
-    parts.push(path([[across.at(tick), bottom], [across.at(tick), top]], 'g'), text(across.at(tick), bottom + 15, count(tick), 'm'));
+    const at = across.at(tick);
+    parts.push(path([[at, bottom], [at, top]], 'g'), text(at, bottom + 15, count(tick), 'm'));
   }
-  parts.push(path([[left, top], [left, bottom], [right, bottom]], 'a'), text((left + right) / 2, bottom + 30, xLabel, 'm'));
+  parts.push(path([[left, top], [left, bottom], [right, bottom]], 'a'));
+  parts.push(text((left + right) / 2, bottom + 30, xLabel, 'm'));
   const labels = [];
   for (const { points, ink, mark, label } of drawn) {
-    const placed = [...points].sort((p, q) => p[0] - q[0]).map(([n, value]) => [across.at(n), up.at(value)]);
+    const placed = [...points]
+      .sort((p, q) => p[0] - q[0])
+      .map(([n, value]) => [across.at(n), up.at(value)]);
     parts.push(kMarks[mark](placed, ink));
-    if (label) labels.push({ x: placed.at(-1)[0] + 7, y: placed.at(-1)[1] + 4, ink, ...label });
+    const [endX, endY] = placed.at(-1);
+    if (label) labels.push({ x: endX + 7, y: endY + 4, ink, ...label });
   }
   for (const label of spread(labels, 13)) parts.push(endLabel(label));
   return parts.join('\n');
 }
 
 function endLabel({ x, y, ink, text: words, exponent }) {
-  const power = exponent === undefined ? '' : `<tspan>n</tspan><tspan class="s" dy="-4">${exponent.toFixed(1)}</tspan>`;
-  return `<text x="${one(x)}" y="${one(y)}" class="${ink}f" style="font-weight:600">${escaped(words)}${power}</text>`;
+  const raised = exponent === undefined ? '' : `<tspan class="s" dy="-4">${exponent.toFixed(1)}</tspan>`;
+  const content = `${escaped(words)}${raised && `n${raised}`}`;
+  return `<text x="${one(x)}" y="${one(y)}" class="${ink}f" style="font-weight:600">${content}</text>`;
 }
 
 /** A number of things: 2 000, 10k, 1M. */
@@ -160,7 +176,7 @@ export function histogram({ x, y, width, height, title, xLabel, edges, format, s
     found.forEach((value, i) => {
       if (value === 0) return;
       const at = left + i * bin + 0.08 * bin + s * wide;
-      parts.push(`<rect class="b ${sets[s].ink}f" x="${one(at)}" y="${one(up(value))}" width="${one(wide - 1)}" height="${one(bottom - up(value))}"/>`);
+      parts.push(bar(sets[s].ink, at, up(value), wide - 1, bottom - up(value)));
     });
   });
   edges.forEach((edge, i) => {
@@ -174,7 +190,7 @@ export function histogram({ x, y, width, height, title, xLabel, edges, format, s
 export function legend(x, y, entries) {
   const parts = [];
   for (const { ink, mark, text: words } of entries) {
-    if (mark === 'bar') parts.push(`<rect class="b ${ink}f" x="${x}" y="${y - 9}" width="12" height="10"/>`);
+    if (mark === 'bar') parts.push(bar(ink, x, y - 9, 12, 10));
     else if (mark === 'diamond') parts.push(kMarks.diamond([[x + 8, y - 4]], ink));
     else parts.push(path([[x, y - 4], [x + 18, y - 4]], `${mark === 'dotted' ? 'd' : 'l'} ${ink}`));
     parts.push(text(x + 24, y, words));
@@ -185,17 +201,19 @@ export function legend(x, y, entries) {
 
 const subtract = (a, b) => a.map((value, i) => value - b[i]);
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const cross = ([a, b, c], [p, q, r]) => [b * r - c * q, c * p - a * r, a * q - b * p];
 const unit = (a) => a.map((value) => value / Math.hypot(...a));
 
 const kShadow = [48, 92, 140];
 const kLight = [173, 214, 246];
+const hex = (value) => Math.round(value).toString(16).padStart(2, '0');
 const shaded = (share) =>
-  `#${kShadow.map((dark, i) => Math.round(dark + share * (kLight[i] - dark)).toString(16).padStart(2, '0')).join('')}`;
+  `#${kShadow.map((dark, i) => hex(dark + share * (kLight[i] - dark))).join('')}`;
 
 const edgesOf = ([a, b, c]) => [[a, b], [b, c], [c, a]];
 const edgeKey = ([a, b]) => `${Math.min(a, b)},${Math.max(a, b)}`;
-const triples = (array) => Array.from({ length: array.length / 3 }, (_, i) => [...array.subarray(3 * i, 3 * i + 3)]);
+const triples = (array) =>
+  Array.from({ length: array.length / 3 }, (_, i) => [...array.subarray(3 * i, 3 * i + 3)]);
 
 /** A surface in a square of side `size`, seen from direction `from`, far triangles first. */
 export function surface({ positions, triangles }, { x, y, size, from }) {
@@ -205,12 +223,14 @@ export function surface({ positions, triangles }, { x, y, size, from }) {
   const points = triples(positions);
   const corners = triples(triangles);
   const flat = points.map((p) => [dot(p, side), -dot(p, upward), dot(p, eye)]);
-  const ranges = [0, 1].map((d) => [Math.min(...flat.map((p) => p[d])), Math.max(...flat.map((p) => p[d]))]);
+  const range = (values) => [Math.min(...values), Math.max(...values)];
+  const ranges = [0, 1].map((d) => range(flat.map((p) => p[d])));
   const factor = size / Math.max(...ranges.map(([low, high]) => high - low));
   const middle = ranges.map(([low, high]) => (low + high) / 2);
-  const placed = flat.map((p) => [x, y].map((at, d) => one(at + size / 2 + factor * (p[d] - middle[d]))).join(','));
+  const place = (p) => [x, y].map((at, d) => one(at + size / 2 + factor * (p[d] - middle[d])));
+  const placed = flat.map((p) => place(p).join(','));
   const uses = new Map();
-  for (const edge of corners.flatMap(edgesOf)) uses.set(edgeKey(edge), (uses.get(edgeKey(edge)) ?? 0) + 1);
+  for (const key of corners.flatMap(edgesOf).map(edgeKey)) uses.set(key, (uses.get(key) ?? 0) + 1);
   const depth = (triangle) => triangle.reduce((sum, v) => sum + flat[v][2], 0);
   const light = unit(side.map((value, i) => 0.35 * value + 0.55 * upward[i] + 0.75 * eye[i]));
   const faces = corners.sort((s, t) => depth(s) - depth(t)).map((triangle) => {
@@ -219,7 +239,8 @@ export function surface({ positions, triangles }, { x, y, size, from }) {
     const face = `<path d="M${triangle.map((v) => placed[v]).join('L')}z" fill="${shaded(share)}"/>`;
     const rim = edgesOf(triangle).filter((edge) => uses.get(edgeKey(edge)) === 1);
     if (rim.length === 0) return face;
-    return `${face}<path class="r" d="${rim.map((edge) => `M${edge.map((v) => placed[v]).join('L')}`).join('')}"/>`;
+    const lines = rim.map(([p, q]) => `M${placed[p]}L${placed[q]}`);
+    return `${face}<path class="r" d="${lines.join('')}"/>`;
   });
   return `<g class="f">${faces.join('')}</g>`;
 }

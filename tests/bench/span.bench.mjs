@@ -1,7 +1,8 @@
 // Times spanLoops of the built package on one curve file and prints what it found as one line of JSON.
 // A process a case, so that memory and the engine's compilation are the case's own. Times are the
 // processor's; the first run, in which the engine compiles, is told by the clock too.
-//   node span.bench.mjs '{ "curves": file, "space", "objective", "weights": [3] or null, "bestSoFar": limits or null }'
+//   node span.bench.mjs '{ "curves": file, "space", "objective", "weights": [3] or null,
+//                          "bestSoFar": limits or null }'
 import { readFileSync } from 'node:fs';
 import { load, parseLoops, SoapfilmError, spanLoops } from 'soapfilm';
 
