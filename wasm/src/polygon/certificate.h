@@ -3,20 +3,27 @@
 // verification purposes". That this finds every invalid input is a conjecture there and a theorem
 // here: PAPERS.md has the argument.
 #pragma once
+#include <vector>
+
 #include "base/work.h"
 #include "polygon/polygon.h"
 
 namespace sf {
 
-/// Whether the triangles prove by themselves that the polygon is valid and that they cover it:
-/// none is turned over, by exact orient2d, those of area 0 have collinear corners, the sum of their
-/// boundaries is that of the rings, and the same holds for the triangles of the complement, whose
-/// boundary is that of a frame less the rings'.
-///   at                  [m] points: the input's vertices, then the frame's four corners
-///   rings               [2e] edges u -> v of the rings, the polygon to the left
-///   inside, complement  [3t] triangles as indices into `at`
-/// O(m + t) time and memory, charged to `work`; false too once `work` is to end.
-bool certify(ArrayView<const Point2> at, ArrayView<const uint32_t> rings,
-             ArrayView<const uint32_t> inside, ArrayView<const uint32_t> complement, Work& work);
+/// What certify looks at.
+struct Certificate {
+  std::vector<Point2> at;        // [m] points: the input's, and last the four corners of a frame,
+                                 // counter-clockwise
+  std::vector<uint32_t> same;    // [m] for each point one at the same place, itself if none is
+  std::vector<uint32_t> rings;   // [2e] edges u -> v of the rings, the polygon to the left
+  std::vector<uint32_t> inside;  // [3t] triangles of the polygon
+  std::vector<uint32_t> complement;  // [3s] triangles of the frame without the polygon
+};
+
+/// Whether the triangles prove by themselves that the polygon is valid and that they cover it: all
+/// numbers are finite, no triangle is turned over, by exact orient2d, and the sums of the triangles'
+/// boundaries are that of the rings inside, and the frame less the rings outside. O(m + t + s) time
+/// and memory, charged to `work`; false too once `work` is to end.
+bool certify(const Certificate& certificate, Work& work);
 
 }  // namespace sf

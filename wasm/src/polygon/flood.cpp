@@ -26,7 +26,7 @@ bool Flood::run(const LinkedPolygon& loops, const Visibility& seen, Work& work,
 bool Flood::begin(const LinkedPolygon& loops, const Visibility& seen, Work& work) {
   const size_t m = loops.at.size();
   for (size_t v = 0; v < m; ++v)
-    nodes_[v] = {loops.at[v], loops.next[v], loops.prev[v], loops.vertex[v],
+    nodes_[v] = {loops.at[v], loops.next[v], loops.prev[v], uint32_t(v),
                  kNone,       kNone,         loops.kind[v]};
   used_ = m;
   bottoms_.clear(), pending_.clear();
@@ -223,7 +223,7 @@ uint32_t Flood::copyOf(uint32_t v) {
 
 void Flood::note(FloodAction action) {
   if (!trace_) return;
-  trace_->push_back({uint32_t(action), nodes_[chain_.left].vertex, nodes_[chain_.right].vertex,
+  trace_->push_back({uint32_t(action), nodes_[chain_.left].node, nodes_[chain_.right].node,
                      uint32_t(out_ - outBegin_) / 3});
 }
 

@@ -21,10 +21,10 @@ enum class FloodAction : uint32_t { Start, Raise, Fill, Bridge, Spill, Jump };
 
 class Flood {
  public:
-  /// Appends the triangles of the loops to `triangles`, as indices of the input, counter-clockwise;
-  /// all are strictly positive.
+  /// Appends the triangles of the loops to `triangles`, as nodes, counter-clockwise; all are strictly
+  /// positive.
   ///   loops, seen  as PlaneSweep::run leaves them; they are read only
-  ///   trace        if not null, gets the actions
+  ///   trace        if not null, gets the actions, with nodes for vertices
   /// False, after a forbidden state, only for loops that no sweep has passed; or once `work` is to
   /// end. O(m) time and memory; the memory is kept, and charged during the call.
   bool run(const LinkedPolygon& loops, const Visibility& seen, Work& work,
@@ -35,7 +35,7 @@ class Flood {
   struct Node {
     Point2 at;
     uint32_t next, prev;
-    uint32_t vertex;
+    uint32_t node;  // of `loops`, which copies share
     uint32_t sag;  // the lowest sag that waits under the edge that rises from here on the left bank
     uint32_t jump;  // of a top that one side has reached: the other end of that side's chain; of a
                     // sag that waits: the next one under the same edge
@@ -60,7 +60,7 @@ class Flood {
   uint32_t copyOf(uint32_t v);
   void link(uint32_t from, uint32_t to) { nodes_[from].next = to, nodes_[to].prev = from; }
   void emit(const Node& a, const Node& b, const Node& c) {
-    out_[0] = a.vertex, out_[1] = b.vertex, out_[2] = c.vertex;
+    out_[0] = a.node, out_[1] = b.node, out_[2] = c.node;
     out_ += 3;
   }
   void note(FloodAction action);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kLargest = 1e150;
 
-/// Magnitudes along one axis.
+/// Magnitudes of coordinates.
 struct Extent {
   double largest = 0;
   bool finite = true;
@@ -58,23 +58,26 @@ Outcome firstNotFinite(const PolygonView& polygon) {
     if (isBad(polygon.points, bad.loop - rings)) return bad;
 }
 
-/// Copies positions and points to `at`, scaled; false if one is not finite.
-bool copyScaled(const PolygonView& polygon, std::vector<Point2>& at) {
-  const size_t n = polygon.positions.size() / 2, p = polygon.points.size() / 2;
-  at.resize(n + p);
-  Extent x, y;
+/// Copies positions, and points or the frame, to `at`, scaled; false if one is not finite.
+bool copyScaled(const PolygonView& polygon, bool complement, std::vector<Point2>& at) {
+  const size_t n = polygon.positions.size() / 2;
+  at.resize(n + (complement ? 4 : polygon.points.size() / 2));
+  Extent extent;
   const auto copy = [&](ArrayView<const double> xy, Point2* to) {
     for (size_t i = 0; i < xy.size() / 2; ++i) {
       to[i] = {xy[2 * i], xy[2 * i + 1]};
-      x.add(to[i].x), y.add(to[i].y);
+      extent.add(to[i].x), extent.add(to[i].y);
     }
   };
   copy(polygon.positions, at.data());
-  copy(polygon.points, at.data() + n);
-  if (!x.finite || !y.finite) return false;
-  const double sx = x.scale(), sy = y.scale();
-  if (sx != 1 || sy != 1)
-    for (Point2& q : at) q = {q.x * sx, q.y * sy};
+  if (complement)
+    frameAround(polygon, at.data() + n);
+  else
+    copy(polygon.points, at.data() + n);
+  if (!extent.finite) return false;
+  const double scale = extent.scale();
+  if (scale != 1)
+    for (Point2& q : at) q = {q.x * scale, q.y * scale};
   return true;
 }
 
@@ -183,11 +186,18 @@ bool RingLinker::linkDistinct(bool reversed) {
 
 }  // namespace
 
-Outcome linkRings(const PolygonView& polygon, LinkedPolygon& linked,
+void frameAround(const PolygonView& polygon, Point2 corners[4]) {
+  double m = 0;
+  for (const double x : polygon.positions) m = std::fmax(m, std::fabs(x));
+  m *= 2;
+  corners[0] = {-m, -m}, corners[1] = {m, -m}, corners[2] = {m, m}, corners[3] = {-m, m};
+}
+
+Outcome linkRings(const PolygonView& polygon, bool complement, LinkedPolygon& linked,
                   std::vector<uint8_t>& reversed) {
   if (Outcome bad = checkStarts(polygon); !bad.ok()) return bad;
-  if (!copyScaled(polygon, linked.at)) return firstNotFinite(polygon);
-  const size_t n = polygon.positions.size() / 2, m = linked.at.size();
+  if (!copyScaled(polygon, complement, linked.at)) return firstNotFinite(polygon);
+  const uint32_t n = uint32_t(polygon.positions.size() / 2), m = uint32_t(linked.at.size());
   const uint32_t rings = uint32_t(polygon.starts.size()) - 1;
   linked.vertex.resize(m), linked.next.resize(m), linked.prev.resize(m), linked.kind.resize(m);
   linked.flat.clear();
@@ -202,14 +212,18 @@ Outcome linkRings(const PolygonView& polygon, LinkedPolygon& linked,
     bad.status = Status::DegeneratePolygon, bad.loop = c;
     if (size < 3) return bad;
     RingLinker ring(linked, first, first + size - 1);
-    reversed[c] = ring.isCounterClockwise() != (c == 0);
+    reversed[c] = ring.isCounterClockwise() != ((c == 0) != complement);
     if (ring.goesToAndFro()) return bad;
     if (!ring.repeatsItself())
       ring.link(reversed[c]);
     else if (!ring.linkDistinct(reversed[c]))
       return bad;
   }
-  for (uint32_t i = uint32_t(n); i < m; ++i)
+  if (complement) {
+    RingLinker(linked, n, n + 3).link(false);
+    return {};
+  }
+  for (uint32_t i = n; i < m; ++i)
     linked.kind[i] = VertexKind::Island, linked.next[i] = linked.prev[i] = i;
   return {};
 }

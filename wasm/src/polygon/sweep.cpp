@@ -24,18 +24,47 @@ constexpr int kRingSteps = 24;
 PlaneSweep::PlaneSweep() : state_(new SweepState) {}
 PlaneSweep::~PlaneSweep() = default;
 
+const std::vector<uint8_t>& PlaneSweep::reversed() const { return state_->reversed; }
+
+void PlaneSweep::findEqual(std::vector<uint32_t>& same) const {
+  const State& s = *state_;
+  const std::vector<Point2>& at = s.loops->at;
+  same.resize(s.inputNodes);
+  for (size_t i = 0; i < s.events.size(); ++i) {
+    const bool equal = i > 0 && s.events[i - 1].at == s.events[i].at;
+    same[s.events[i].node] = equal ? same[s.events[i - 1].node] : s.events[i].node;
+  }
+  // Vertices that no loop visits repeat a neighbour, in one direction or the other.
+  const ArrayView<const uint32_t> starts = s.view->starts;
+  for (uint32_t v = 0; v < starts[starts.size() - 1]; ++v) {
+    if (s.loops->kind[v] != VertexKind::Unused) continue;
+    const uint32_t before = s.step(v, true);
+    same[v] = same[at[before] == at[v] ? before : s.step(v, false)];
+  }
+}
+
 Outcome PlaneSweep::run(const PolygonView& polygon, bool sagsOnly, Work& work,
+                        LinkedPolygon& linked, Visibility& seen) {
+  return run(polygon, false, sagsOnly, work, linked, seen);
+}
+
+Outcome PlaneSweep::runComplement(const PolygonView& polygon, Work& work, LinkedPolygon& linked,
+                                  Visibility& seen) {
+  return run(polygon, true, true, work, linked, seen);
+}
+
+Outcome PlaneSweep::run(const PolygonView& polygon, bool complement, bool sagsOnly, Work& work,
                         LinkedPolygon& linked, Visibility& seen) {
   State& s = *state_;
   Charge charge(work);
-  const uint64_t n = polygon.positions.size() / 2 + polygon.points.size() / 2;
+  const uint64_t n = (polygon.positions.size() + polygon.points.size()) / 2 + 4;
   const uint64_t perNode = sizeof(State::Event) + 5 * sizeof(uint32_t);
   Outcome outcome;
   if (!charge.add(n * perNode)) {
     outcome.status = work.status();
     return outcome;
   }
-  outcome = linkRings(polygon, linked, s.reversed);
+  outcome = linkRings(polygon, complement, linked, s.reversed);
   if (!outcome.ok()) return outcome;
   s.sagsOnly = sagsOnly;
   if (!s.begin(polygon, linked, seen, work)) {
@@ -74,6 +103,7 @@ bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility&
   view = &polygon, loops = &linked, seen = &visibility;
   outcome = misplaced = {};
   const size_t m = linked.at.size();
+  inputNodes = m;
   events.resize(m);
   size_t minima = 0, count = 0;
   Point2 least{HUGE_VAL, HUGE_VAL}, greatest{-HUGE_VAL, -HUGE_VAL};

@@ -61,7 +61,20 @@ class PlaneSweep {
   Outcome run(const PolygonView& polygon, bool sagsOnly, Work& work, LinkedPolygon& linked,
               Visibility& seen);
 
+  /// The same, sags only, for what is left of a frame around the polygon when the polygon is taken
+  /// out of it; nodes n to n + 3 are the frame's corners. Isolated points are left out.
+  Outcome runComplement(const PolygonView& polygon, Work& work, LinkedPolygon& linked,
+                        Visibility& seen);
+
+  /// For each vertex of the last call the first one at the same place: for certificates.
+  void findEqual(std::vector<uint32_t>& same) const;
+  /// [r] 1 where the loop of the last call runs through its ring backwards.
+  const std::vector<uint8_t>& reversed() const;
+
  private:
+  Outcome run(const PolygonView& polygon, bool complement, bool sagsOnly, Work& work,
+              LinkedPolygon& linked, Visibility& seen);
+
   std::unique_ptr<SweepState> state_;
 };
 

@@ -41,7 +41,8 @@ struct SweepState {
   LinkedPolygon* loops = nullptr;
   Visibility* seen = nullptr;
   bool sagsOnly = false;
-  Outcome outcome;    // the first crossing
+  size_t inputNodes = 0;  // those that are vertices of the input
+  Outcome outcome;        // the first crossing
   Outcome misplaced;  // the first sign of a hole in the wrong place, which a crossing may explain
 
   void findSpike();
