@@ -1,4 +1,4 @@
-// Off the main thread: progress, cancelling, and two solves at once.
+// Off the main thread: progress, cancelling, the best answer so far, and two solves at once.
 import { createWorker } from 'soapfilm/worker';
 
 const film = await createWorker({ size: 2 });
@@ -28,6 +28,17 @@ try {
 } catch (error) {
   console.log(`cancelled: ${error.code}`);
 }
+
+// With `bestSoFar` the work ends with the best surface found until then, and says how good it is.
+const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [i & 1, (i >> 1) & 1, i >> 2].map((x) => 3 * x));
+const best = await film.spanLoops(
+  corners.map((at) => wave(1, 0, 12).map((point) => point.map((x, i) => x + at[i] + 0.02 * at[(i + 1) % 3]))),
+  { candidates: 'delaunay', weights: { area: 1 }, bestSoFar: true, maxSeconds: 1 },
+);
+console.log(
+  `eight loops in a second: ${best.triangles.length / 3} triangles, ` +
+    `at most ${Math.ceil(100 * (best.cost / best.lowerBound - 1))} % above the optimum`,
+);
 
 let reports = 0;
 const last = await film.spanLoops([wave(1, 0, 200)], {

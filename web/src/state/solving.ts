@@ -42,6 +42,8 @@ export const isStale = computed(() => {
 const kSettle = 60;
 /** During a drag a span this quick is let finish; a slower one waits for the drag's end. */
 const kLiveSeconds = 0.25;
+/** Surfaces on the way are shown after this long: before that they would only flicker. */
+const kShowBest = 400;
 
 let film: ReturnType<typeof createWorker> | null = null;
 let running: AbortController | null = null;
@@ -61,7 +63,7 @@ export function setLive(live: boolean): void {
 /** Begins to span the document, in place of any span still running. */
 export function startSpan(): void {
   clearTimeout(timer);
-  cancelRunning();
+  dropRunning();
   const of = doc.peek();
   begun = of;
   batch(() => {
@@ -77,17 +79,17 @@ function isKin(before: Document, after: Document): boolean {
   return isReshaped(before, after) || before.curves.some((curve) => after.curves.includes(curve));
 }
 
-/** Ends the running span; the surface shown stays. */
-export function cancelSpan(): void {
+/** Ends the running span, with its best surface so far; without one, the surface shown stays. */
+export function endSpan(): void {
   clearTimeout(timer);
-  if (running === null) return;
-  cancelRunning();
-  solve.value = { phase: 'cancelled' };
+  running?.abort();
 }
 
-function cancelRunning(): void {
-  running?.abort();
+/** Ends the running span, and with it all interest in what comes of it. */
+function dropRunning(): void {
+  const dropped = running;
   running = null;
+  dropped?.abort();
 }
 
 async function run(of: Document, live: boolean): Promise<void> {
@@ -102,6 +104,11 @@ async function run(of: Document, live: boolean): Promise<void> {
     const outcome = await worker.spanLoops(toLoopSet(of.curves), {
       ...spanOptions(of),
       signal: mine.signal,
+      bestSoFar: !live,
+      onBest: (span) => {
+        if (!isMine() || performance.now() - since < kShowBest) return;
+        surface.value = { span, of, entrance: 'at-once' };
+      },
       onProgress: (fraction, bestCost, lowerBound) => {
         if (isMine()) solve.value = { phase: 'running', fraction, bestCost, lowerBound, since };
       },
@@ -123,6 +130,10 @@ async function run(of: Document, live: boolean): Promise<void> {
   } catch (error) {
     if (!isMine()) return;
     running = null;
+    if (mine.signal.aborted) {
+      solve.value = { phase: 'cancelled' };
+      return;
+    }
     // A worker that could not be made is tried again with the next span.
     if (error instanceof SoapfilmError && error.code === 'load-failed') film = null;
     batch(() => {

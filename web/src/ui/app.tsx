@@ -3,7 +3,7 @@ import { useEffect, useState } from 'preact/hooks';
 import { computed } from '@preact/signals';
 import type { Stage } from '../scene/stage.ts';
 import { countOf, openFile } from '../state/files.ts';
-import { cancelSpan, solve, surface } from '../state/solving.ts';
+import { endSpan, solve, surface } from '../state/solving.ts';
 import { dismissNotice, doc, notice, tool } from '../state/store.ts';
 import { PenBar, ToolBar, TopBar, ViewBar } from './bars.tsx';
 import { Gallery, Help, openDialog } from './dialogs.tsx';
@@ -141,7 +141,7 @@ function Busy() {
     <div class="busy floating">
       <progress aria-label="Spanning, over the scene" max={1} value={state.fraction} />
       <span>{Math.floor(100 * state.fraction)} %</span>
-      <button type="button" class="button small" onClick={cancelSpan}>
+      <button type="button" class="button small" onClick={endSpan}>
         Cancel
       </button>
     </div>

@@ -3,7 +3,7 @@ import type { PointerTools } from '../scene/pointer.ts';
 import type { Stage } from '../scene/stage.ts';
 import type { PlaneKind } from '../shapes/plane.ts';
 import { saveSurface } from '../state/files.ts';
-import { cancelSpan, solve } from '../state/solving.ts';
+import { endSpan, solve } from '../state/solving.ts';
 import { dismissNotice, drawing, isGrowing, notice, redo, selection, tool, undo } from '../state/store.ts';
 import { addCircle, deleteSelected, nudge, stepCurve, stepVertex } from './actions.ts';
 import { chooseFile } from './bars.tsx';
@@ -76,7 +76,7 @@ function onArrow(stage: Stage, event: KeyboardEvent): boolean {
 /** Ends the nearest thing that can be ended. */
 function escape(pointer: PointerTools): void {
   if (pointer.cancel()) return;
-  if (solve.peek().phase === 'running') cancelSpan();
+  if (solve.peek().phase === 'running') endSpan();
   else if (notice.peek() !== null) dismissNotice();
   else if (selection.peek() !== null) selection.value = null;
   else tool.value = 'select';

@@ -1,7 +1,7 @@
 // What came of the span: cost and figures, or in words why there is none.
 import { useEffect, useState } from 'preact/hooks';
 import type { CandidateSpace, Span, SpaceUsed } from 'soapfilm';
-import { cancelSpan, isStale, solve, startSpan, surface, type Solve } from '../state/solving.ts';
+import { endSpan, isStale, solve, startSpan, surface, type Solve } from '../state/solving.ts';
 import { dispatch, doc } from '../state/store.ts';
 import { Section } from './controls.tsx';
 import { Icon } from './icons.tsx';
@@ -35,6 +35,7 @@ export function Result() {
 
 function Running({ state }: { state: Extract<Solve, { phase: 'running' }> }) {
   const elapsed = useSecondsSince(state.since);
+  const hasBest = state.bestCost < Infinity && elapsed > 0;
   return (
     <div class="running">
       <div class="running-head">
@@ -42,11 +43,17 @@ function Running({ state }: { state: Extract<Solve, { phase: 'running' }> }) {
         <span class="count">
           {Math.floor(100 * state.fraction)} %{elapsed > 0 && `, ${elapsed} s`}
         </span>
-        <button type="button" class="button small" onClick={cancelSpan}>
-          Cancel
+        <button type="button" class="button small" onClick={endSpan}>
+          {hasBest ? 'Stop' : 'Cancel'}
         </button>
       </div>
       <progress aria-label="Spanning" max={1} value={state.fraction} />
+      {hasBest && (
+        <p class="muted">
+          Best so far {figure(state.bestCost)}
+          {state.lowerBound > 0 && `, at least ${figure(state.lowerBound)}`}
+        </p>
+      )}
     </div>
   );
 }
