@@ -69,8 +69,9 @@ class StripFinder {
   std::vector<uint32_t> path_;  // union-find over the triangles of one path
 };
 
-// How a triangle stands to the strip of the triangle above: Costs' members by number.
-enum State { kApart = 0, kEnds = 1, kTurns = 2 };  // kTurns + 2 turn + starts
+// How a triangle stands to the strip of the triangle above: the members of Costs by number, the turns as
+// kTurns + 2 turn + starts.
+constexpr int kApart = 0, kEnds = 1, kTurns = 2;
 
 // Depth first, so that paths are long; straight on (the turns alternating) where there is a choice.
 bool StripFinder::growForest() {
