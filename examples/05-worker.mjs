@@ -33,7 +33,7 @@ try {
 const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [i & 1, (i >> 1) & 1, i >> 2].map((x) => 3 * x));
 const best = await film.spanLoops(
   corners.map((at) => wave(1, 0, 12).map((point) => point.map((x, i) => x + at[i] + 0.02 * at[(i + 1) % 3]))),
-  { candidates: 'delaunay', weights: { area: 1 }, bestSoFar: true, maxSeconds: 1 },
+  { candidates: 'delaunay', bestSoFar: true, maxSeconds: 1 },
 );
 console.log(
   `eight loops in a second: ${best.triangles.length / 3} triangles, ` +
