@@ -428,12 +428,8 @@ double filledArea(const Polygon& polygon, FillRule rule) {
   std::vector<double> heights;
   for (uint32_t r = 0; r < polygon.ringCount(); ++r) {
     const Ring ring = ringsOf(polygon)[r];
-    double area = 0;
-    for (size_t i = 0; i < ring.size(); ++i) {
-      const Point a = ring[i], b = ring[(i + 1) % ring.size()], o = ring[0];
-      area += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
-    }
-    const int weight = (area < 0) == (r == 0) ? -1 : 1;
+    const bool isNegative = compareAreas(polygonOf({ring}), polygonOf({Ring{}})) < 0;
+    const int weight = isNegative == (r == 0) ? -1 : 1;
     for (size_t i = 0; i < ring.size(); ++i) {
       const Point a = ring[i], b = ring[(i + 1) % ring.size()];
       heights.push_back(a.y);

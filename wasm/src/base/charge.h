@@ -1,5 +1,7 @@
 // Memory charged to the budget for as long as a scope lasts.
 #pragma once
+#include <vector>
+
 #include "base/work.h"
 
 namespace sf {
@@ -21,5 +23,23 @@ class Charge {
   Work& work_;
   uint64_t bytes_ = 0;
 };
+
+/// Room in a list for `size` elements, charged before it is taken; false beyond the limit.
+template <class T>
+bool reserve(std::vector<T>& list, size_t size, Charge& charge) {
+  if (size <= list.capacity()) return true;
+  if (!charge.add((size - list.capacity()) * sizeof(T))) return false;
+  list.reserve(size);
+  return true;
+}
+
+/// push_back that charges the memory it needs before it is taken; false beyond the limit.
+template <class T>
+bool push(std::vector<T>& list, const T& item, Charge& charge) {
+  const size_t size = list.size();
+  if (size == list.capacity() && !reserve(list, size < 16 ? 16 : 2 * size, charge)) return false;
+  list.push_back(item);
+  return true;
+}
 
 }  // namespace sf

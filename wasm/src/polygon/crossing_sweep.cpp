@@ -4,7 +4,7 @@
 
 #include "base/predicates.h"
 #include "polygon/crossing_point.h"
-#include "polygon/edge_order.h"
+#include "polygon/segment_order.h"
 #include "polygon/turn.h"
 
 namespace sf {
@@ -12,27 +12,16 @@ namespace {
 
 constexpr uint32_t kUnitsPerEvent = 500, kUnitsPerCrossing = 5000;
 
-/// push_back that charges the memory before it is taken; false if that exceeds the limit.
-template <class T>
-bool push(std::vector<T>& list, const T& item, Charge& charge) {
-  if (list.size() == list.capacity()) {
-    const size_t more = list.size() < 16 ? 16 : list.size();
-    if (!charge.add(more * sizeof(T))) return false;
-    list.reserve(list.size() + more);
-  }
-  list.push_back(item);
-  return true;
-}
-
 class Sweep {
  public:
   Sweep(ArrayView<const Point2> at, ArrayView<const WeightedEdge> edges, Work& work, Charge& charge,
         Crossings& result)
-      : at_(at), edges_(edges), work_(work), charge_(charge), result_(result) {}
+      : at_(at), edges_(edges), work_(work), charge_(charge), ownCharge_(work), result_(result) {}
 
   bool run() {
     const size_t e = edges_.size();
-    if (!charge_.add(EdgeOrder::bytes(e) + e * (sizeof(int32_t) + 2 * sizeof(uint32_t))))
+    if (!ownCharge_.add(SegmentOrder::bytes(e)) || !reserve(result_.winding, e, charge_) ||
+        !reserve(result_.left, e, charge_))
       return false;
     order_.reset(e);
     result_.crossings.clear(), result_.cuts.clear();
@@ -79,29 +68,24 @@ class Sweep {
     return true;
   }
 
-  /// Positive if the event is left of a crossed edge, negative right, 0 on it.
-  int side(uint32_t record) const {
-    const CrossedEdge& edge = order_[record];
-    if (!isVertex_) return sideOf({edge.lo, edge.hi}, exact(crossing_));
-    if (edge.upper == vertex_) return 0;
-    const double s = turn(edge.lo, edge.hi, at_[vertex_]);
+  /// Positive if the event is left of an edge, negative right, 0 on it.
+  int side(uint32_t e) const {
+    if (!isVertex_) return sideOf(line(e), exact(crossing_));
+    if (edges_[e].high == vertex_) return 0;
+    const double s = turn(at_[edges_[e].low], at_[edges_[e].high], at_[vertex_]);
     return s > 0 ? 1 : s < 0 ? -1 : 0;
   }
 
   bool pass() {
     if (!next()) return false;
-    uint32_t left = kNone, right = kNone;
-    for (uint32_t r = order_.root(); r != kNone;) {
-      const bool isLeft = side(r) < 0;
-      (isLeft ? left : right) = r;
-      r = order_[r].child[isLeft];
-    }
+    const uint32_t left = order_.lastThat([&](uint32_t e) { return side(e) < 0; });
+    uint32_t right = order_.rightOf(left);
     through_.clear();
     const uint32_t point = isVertex_ ? vertex_ : uint32_t(at_.size() + result_.crossings.size());
     if (!takeOut(point, right)) return false;
     if (isVertex_) {
       for (; nextEdge_ < edges_.size() && edges_[nextEdge_].low == vertex_; ++nextEdge_)
-        through_.push_back(nextEdge_);
+        if (!push(through_, nextEdge_, ownCharge_)) return false;
       ++vertex_;
     } else {
       const EdgeCrossing found = {crossing_.first, crossing_.second, crossing_.at};
@@ -113,12 +97,11 @@ class Sweep {
   /// Takes the edges through the event out, from `right` on, which becomes the edge right of them.
   bool takeOut(uint32_t point, uint32_t& right) {
     while (right != kNone && side(right) == 0) {
-      const uint32_t e = order_[right].input, after = order_[right].right;
-      order_.remove(right);
-      right = after;
+      const uint32_t e = right;
+      right = order_.rightOf(e);
+      order_.remove(e);
       if (isVertex_ && edges_[e].high == vertex_) continue;
-      if (!push(result_.cuts, {e, point}, charge_)) return false;
-      through_.push_back(e);
+      if (!push(result_.cuts, {e, point}, charge_) || !push(through_, e, ownCharge_)) return false;
     }
     return true;
   }
@@ -135,36 +118,26 @@ class Sweep {
     if (through_.empty()) return check(left, right);
     uint32_t last = left;
     for (const uint32_t e : through_) {
-      result_.winding[e] = windingRightOf(last);
-      result_.left[e] = last == kNone ? kNone : uint32_t(order_[last].input);
-      last = order_.insertAfter(last);
-      CrossedEdge& record = order_[last];
-      record.lo = at_[edges_[e].low], record.hi = at_[edges_[e].high];
-      record.lower = edges_[e].low, record.upper = edges_[e].high;
-      record.input = e;
+      result_.winding[e] = last == kNone ? 0 : result_.winding[last] - edges_[last].weight;
+      result_.left[e] = last;
+      order_.insertAfter(last, e);
+      last = e;
     }
-    const uint32_t first = left == kNone ? order_.leftmost() : order_[left].right;
-    return check(left, first) && check(last, right);
-  }
-
-  int32_t windingRightOf(uint32_t record) const {
-    if (record == kNone) return 0;
-    const uint32_t e = order_[record].input;
-    return result_.winding[e] - edges_[e].weight;
+    return check(left, through_.front()) && check(last, right);
   }
 
   /// Notes the crossing of two edges next to each other, above the event. They cross if the upper
   /// end that comes first is on the wrong side of the other edge.
   bool check(uint32_t left, uint32_t right) {
     if (left == kNone || right == kNone) return true;
-    const CrossedEdge &a = order_[left], &b = order_[right];
-    const bool cross = a.upper < b.upper   ? turn(b.lo, b.hi, a.hi) < 0
-                       : b.upper < a.upper ? turn(a.lo, a.hi, b.hi) > 0
-                                           : false;
+    const Line s = line(left), t = line(right);
+    const uint32_t a = edges_[left].high, b = edges_[right].high;
+    const bool cross = a < b   ? turn(t.low, t.high, s.high) < 0
+                       : b < a ? turn(s.low, s.high, t.high) > 0
+                               : false;
     if (!cross) return true;
-    const Line s = {a.lo, a.hi}, t = {b.lo, b.hi};
-    const Pending found = {a.input, b.input, crossingPoint(s, t).at};
-    if (!push(pending_, found, charge_)) return false;
+    const Pending found = {left, right, crossingPoint(s, t).at};
+    if (!push(pending_, found, ownCharge_)) return false;
     std::push_heap(pending_.begin(), pending_.end(), Later{*this});
     return work_.tick(kUnitsPerCrossing);
   }
@@ -180,9 +153,10 @@ class Sweep {
   ArrayView<const Point2> at_;
   ArrayView<const WeightedEdge> edges_;
   Work& work_;
-  Charge& charge_;
+  Charge& charge_;    // of the result
+  Charge ownCharge_;  // of all else
   Crossings& result_;
-  EdgeOrder order_;               // `input` of a record is the number of the edge
+  SegmentOrder order_;
   std::vector<Pending> pending_;  // a heap
   uint32_t vertex_ = 0;           // the next vertex; during an event at one, that
   uint32_t nextEdge_ = 0;         // the next edge to start

@@ -101,11 +101,11 @@ class Repairer {
 /// Raw points and edges are the input's, rings turned the way they should run.
 bool Repairer::start() {
   const uint32_t n = vertexCount();
-  if (!charge_.add(n * (sizeof(Raw) + sizeof(Point2) + sizeof(WeightedEdge)))) return false;
-  for (int axis : {0, 1}) exponent_[axis] = exponentOf(polygon_.positions, size_t(axis));
-  raw_.reserve(n);
-  rawEdges_.reserve(n);
+  Charge charge(work_);
   std::vector<Point2> ring;
+  if (!reserve(raw_, n, charge_) || !reserve(rawEdges_, n, charge_) || !reserve(ring, n, charge))
+    return false;
+  for (int axis : {0, 1}) exponent_[axis] = exponentOf(polygon_.positions, size_t(axis));
   for (size_t r = 0; r + 1 < polygon_.starts.size(); ++r) {
     const uint32_t first = polygon_.starts[r], last = polygon_.starts[r + 1];
     ring.clear();
@@ -123,15 +123,17 @@ bool Repairer::start() {
   return renumber();
 }
 
-/// Rounds until nothing crosses.
+/// Rounds until nothing crosses. Where edges are all but parallel, every bend may make more crossings
+/// than it ends, so neither rounds nor edges may go on growing.
 bool Repairer::resolve() {
-  for (uint32_t round = 0; round < limits_.rounds; ++round) {
+  size_t allowed = 0;
+  for (uint32_t round = 0;; ++round) {
     if (!findCrossings(at_, edges_, work_, charge_, found_)) return false;
     if (found_.cuts.empty()) return true;
+    if (round == 0) allowed = 2 * (edges_.size() + found_.cuts.size());
+    if (round >= limits_.rounds || edges_.size() + found_.cuts.size() > allowed) break;
     if (!splitAtCuts()) return false;
   }
-  if (!findCrossings(at_, edges_, work_, charge_, found_)) return false;
-  if (found_.cuts.empty()) return true;
   return snap() && findCrossings(at_, edges_, work_, charge_, found_);
 }
 
@@ -139,9 +141,10 @@ bool Repairer::resolve() {
 bool Repairer::splitAtCuts() {
   const uint32_t m = uint32_t(at_.size());
   const size_t crossings = found_.crossings.size(), cuts = found_.cuts.size();
-  if (!charge_.add((m + crossings) * sizeof(Raw) + crossings * sizeof(Added) +
-                   (edges_.size() + cuts) * sizeof(WeightedEdge) +
-                   (edges_.size() + 1 + cuts) * sizeof(uint32_t)))
+  Charge charge(work_);
+  if (!reserve(raw_, m + crossings, charge_) ||
+      !reserve(rawEdges_, edges_.size() + cuts, charge_) ||
+      !charge.add((edges_.size() + 1 + cuts) * sizeof(uint32_t)))
     return false;
   raw_.clear(), rawEdges_.clear();
   for (uint32_t v = 0; v < m; ++v) raw_.push_back({at_[v], origin_[v]});
@@ -166,12 +169,12 @@ bool Repairer::splitAtCuts() {
 }
 
 bool Repairer::snap() {
+  Charge charge(work_);
   std::vector<HotCell> cells;
   std::vector<SnappedPiece> pieces;
   const double size = std::ldexp(1.0, -limits_.gridBits);
-  if (!snapRound(at_, edges_, found_, size, work_, charge_, cells, pieces)) return false;
-  if (!charge_.add(cells.size() * (sizeof(Raw) + sizeof(Added)) +
-                   pieces.size() * sizeof(WeightedEdge)))
+  if (!snapRound(at_, edges_, found_, size, work_, charge, cells, pieces)) return false;
+  if (!reserve(raw_, cells.size(), charge_) || !reserve(rawEdges_, pieces.size(), charge_))
     return false;
   raw_.clear(), rawEdges_.clear();
   for (const HotCell& cell : cells) {
@@ -193,7 +196,8 @@ bool Repairer::snap() {
 }
 
 uint32_t Repairer::addPoint(Point2 at, uint32_t first, uint32_t second) {
-  added_.push_back({at, {first, second}});
+  push(added_, Added{at, {std::min(first, second), std::max(first, second)}},
+       charge_);  // the next round sees it if memory is short
   return vertexCount() + uint32_t(added_.size()) - 1;
 }
 uint32_t Repairer::movedTo(Point2 at, uint32_t origin) {
@@ -206,11 +210,13 @@ uint32_t Repairer::movedTo(Point2 at, uint32_t origin) {
 /// (from, to, weight to the left) into edges from low to high, merged where they coincide.
 bool Repairer::renumber() {
   const size_t m = raw_.size();
-  if (m >= kNone / 2 ||
-      !charge_.add(2 * m * sizeof(uint32_t) + rawEdges_.size() * sizeof(WeightedEdge)))
-    return work_.fail(Status::TooLarge), false;
-  std::vector<uint32_t> order, number(m, kNone);
-  order.reserve(m);
+  if (m >= kNone / 2) work_.fail(Status::TooLarge);
+  Charge charge(work_);
+  std::vector<uint32_t> order, number;
+  if (!reserve(order, m, charge) || !reserve(number, m, charge) || !reserve(at_, m, charge_) ||
+      !reserve(origin_, m, charge_) || !reserve(edges_, rawEdges_.size(), charge_))
+    return false;
+  number.assign(m, kNone);
   for (const WeightedEdge& e : rawEdges_) {
     if (raw_[e.low].at == raw_[e.high].at) continue;
     for (const uint32_t v : {e.low, e.high})
@@ -257,8 +263,9 @@ void Repairer::mergeEdges() {
 bool Repairer::handBack() {
   const uint32_t n = vertexCount();
   const size_t size = faces_.vertices.size();
-  if (!charge_.add(size * (sizeof(uint32_t) + 2 * sizeof(double) + 2 * sizeof(uint32_t)) +
-                   added_.size() * sizeof(uint32_t)))
+  Charge charge(work_);
+  if (!charge.add(size * 2 * (2 * sizeof(uint32_t) + 2 * sizeof(double)) +
+                  added_.size() * sizeof(uint32_t)))
     return false;
   result_.added.clear(), result_.addedOn.clear(), result_.vertices.clear();
   std::vector<uint32_t> number(added_.size(), kNone);

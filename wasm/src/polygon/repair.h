@@ -4,9 +4,10 @@
 // finite precision output", and Guibas, Marimont 1998, "Rounding arrangements dynamically", for snap
 // rounding.
 // Differs: crossings are rounded to the nearest doubles and the edges through them bent; the result
-// is looked at again, exactly, until nothing crosses any more, which takes two or three rounds. Input
-// points never move. Should the bends go on making crossings, all is rounded to a coarser grid once,
-// edges bent to every grid cell that they pass and that holds a point: that makes no crossings.
+// is looked at again, exactly, until nothing crosses any more, which takes two or three rounds, and no
+// input point moves. Bends of edges that are all but parallel may go on making crossings. Then all is
+// rounded to a grid of 2^-48 of the extent, and edges bent to every cell that they pass and that
+// holds a point: that makes no crossings.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -27,13 +28,14 @@ struct RepairedPolygons {
   std::vector<uint32_t> polygonStarts;  // [p+1] in rings: an outer ring, counter-clockwise, and its
                                         // holes, clockwise
   std::vector<double> added;            // [2a] x y
-  std::vector<uint32_t> addedOn;        // [2a] two edges that each is on, by their first vertices
+  std::vector<uint32_t> addedOn;  // [2a] two edges that each is on, by their first vertices, the
+                                  // smaller first
 };
 
 /// When to give up rounding to doubles, and the grid then. For tests; the defaults fit all input.
 struct RepairLimits {
-  uint32_t rounds = 12;
-  int32_t gridBits = 40;  // cells are 2^-gridBits of the largest coordinate, rounded to powers of 2
+  uint32_t rounds = 6;
+  int32_t gridBits = 48;  // cells are 2^-gridBits of a power of 2 above all coordinates; 1 to 48
 };
 
 /// The points whose winding number is odd (Repair::EvenOdd) or not 0 (Repair::NonZero), once the

@@ -52,6 +52,7 @@ class Rounding {
       cells_.push_back({{centreOf(at_[v].x), centreOf(at_[v].y)}, v});
     for (size_t c = 0; c < k; ++c) {
       const Point2 p = found_.crossings[c].at;
+      // Its error is at most a quarter of a cell, so that it is in one cell or one of two.
       const double ex = 0x1p-50 * std::fabs(p.x), ey = 0x1p-50 * std::fabs(p.y);
       const double x0 = centreOf(p.x - ex), x1 = centreOf(p.x + ex);
       const double y0 = centreOf(p.y - ey), y1 = centreOf(p.y + ey);

@@ -20,7 +20,8 @@ struct SnappedPiece {
 };
 
 /// Rounds edges to cells of a power of two, half-open squares about its multiples.
-///   at, edges, found  input and result of findCrossings
+///   at, edges, found  input and result of findCrossings, coordinates at most 1
+///   cellSize          a power of two from 2^-48 on
 ///   cells             [c] by place; a point at the very centre is the cause of its cell
 /// O((e + c) log c) time for edges that are short against all, O(e sqrt c) if all are long, and for
 /// each cell passed. False once `work` has to end.
