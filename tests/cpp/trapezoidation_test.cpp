@@ -91,6 +91,52 @@ std::string faultWithIslands(const LinkedPolygon& p, const std::vector<uint32_t>
   return "";
 }
 
+/// What Seidel's program makes of uni-monotone polygons: convex corners cut off along the chain.
+/// Source: Fournier, Montuno 1984.
+std::vector<uint32_t> cutAlongChains(const Sight& sight) {
+  UniMonotonePolygons polygons;
+  Work work;
+  REQUIRE(findUniMonotonePolygons(sight.linked, sight.seen, true, work, polygons));
+  std::vector<uint32_t> triangles;
+  for (uint32_t e = 0; e + 1 < polygons.starts.size(); ++e) {
+    std::vector<uint32_t> stack;
+    for (uint32_t i = polygons.starts[e]; i < polygons.starts[e + 1]; ++i) {
+      const uint32_t v = polygons.chain[i];
+      while (stack.size() > 1) {
+        uint32_t a = stack[stack.size() - 2], b = stack.back();
+        if (e & 1) std::swap(a, b);  // the chain to the left of its base: v, b, a is its order
+        const Point2 p = sight.linked.at[a], q = sight.linked.at[b], r = sight.linked.at[v];
+        if (orient2d(p.x, p.y, q.x, q.y, r.x, r.y) <= 0) break;
+        triangles.insert(triangles.end(), {a, b, v});
+        stack.pop_back();
+      }
+      stack.push_back(v);
+    }
+  }
+  return triangles;
+}
+
+struct Quality {
+  double angle;     // the mean over triangles of the smallest angle, in degrees
+  uint32_t degree;  // the largest number of triangles at a vertex
+};
+Quality qualityOf(const LinkedPolygon& p, const std::vector<uint32_t>& triangles) {
+  std::vector<uint32_t> degrees(p.at.size(), 0);
+  double sum = 0;
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    double least = 180;
+    for (size_t k = 0; k < 3; ++k) {
+      ++degrees[triangles[t + k]];
+      const Point2 a = p.at[triangles[t + k]], b = p.at[triangles[t + (k + 1) % 3]];
+      const Point2 c = p.at[triangles[t + (k + 2) % 3]];
+      const double x = b.x - a.x, y = b.y - a.y, u = c.x - a.x, w = c.y - a.y;
+      least = std::min(least, std::atan2(x * w - y * u, x * u + y * w) * 57.29577951308232);
+    }
+    sum += least;
+  }
+  return {sum / (double(triangles.size()) / 3), *std::max_element(degrees.begin(), degrees.end())};
+}
+
 }  // namespace
 
 TEST_CASE("trapezoidation: trapezoids cover the polygon") {
@@ -219,4 +265,52 @@ TEST_CASE("trapezoidation: with enough flips the triangles are constrained Delau
     REQUIRE(findTwins(mesh.corners, uint32_t(mesh.at.size()), work, mesh.twins));
     for (uint32_t h = 0; h < mesh.corners.size(); ++h) CHECK(!mesh.isIllegal(h));
   }
+}
+
+TEST_CASE("trapezoidation: angles are more than half way from Seidel's to Delaunay triangles") {
+  constexpr uint32_t kSeed = 4005;
+  CAPTURE(kSeed);
+  Random random(kSeed);
+  const auto check = [&](const char* name, const Polygon& polygon) {
+    CAPTURE(name);
+    const Sight sight = lookAround(polygon);
+    const Quality seidel = qualityOf(sight.linked, cutAlongChains(sight));
+    const Quality tree = qualityOf(sight.linked, triangulate(sight, 0, false));
+    const Quality result = qualityOf(sight.linked, triangulate(sight, 2, false));
+    const Quality forStrips = qualityOf(sight.linked, triangulate(sight, 2, true));
+    const Quality delaunay = qualityOf(sight.linked, triangulate(sight, 1000, false));
+    MESSAGE(std::string(name), ": Seidel ", seidel.angle, ", u-tree ", tree.angle, ", flipped ",
+            result.angle, ", for strips ", forStrips.angle, ", Delaunay ", delaunay.angle,
+            " degrees; most at a vertex ", seidel.degree, ", ", tree.degree, ", ", result.degree,
+            ", ", forStrips.degree, ", ", delaunay.degree);
+    CHECK(result.angle - seidel.angle >= 0.5 * (delaunay.angle - seidel.angle));
+    CHECK(forStrips.angle - seidel.angle >= 0.5 * (delaunay.angle - seidel.angle));
+    CHECK(result.degree <= delaunay.degree + 2);
+    return result.angle;
+  };
+  double simple = 0;
+  for (int i = 0; i < 5; ++i) simple += check("simple", polygonOf({partitionRing(1000, random)}));
+  CHECK(simple / 5 >= 14.4);
+  check("star", polygonOf({starRing(1000, 0.5, random)}));
+  check("blob", polygonOf({blobRing(1000, random)}));
+  check("Koch", polygonOf({kochRing(4)}));
+  check("turned holes", holeGrid(8, 8, false, random));
+  check("aligned holes", holeGrid(8, 8, true, random));
+  check("stars in holes", starsInHoles(4, 4, 10, random));
+}
+
+TEST_CASE("trapezoidation: blobs with a grid have the angles of the paper's table") {
+  constexpr uint32_t kSeed = 4006;
+  CAPTURE(kSeed);
+  Random random(kSeed);
+  double angles = 0;
+  for (int i = 0; i < 10; ++i) {
+    const GriddedBlob blob = blobWithGrid(100, 20, random);
+    const Sight sight = lookAround(blob.polygon, blob.inner);
+    const Quality result = qualityOf(sight.linked, triangulate(sight, 2, false));
+    const Quality delaunay = qualityOf(sight.linked, triangulate(sight, 1000, false));
+    CHECK(result.degree <= delaunay.degree + 2);
+    angles += result.angle;
+  }
+  CHECK(angles / 10 >= 33.7);
 }
