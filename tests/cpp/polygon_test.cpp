@@ -16,7 +16,8 @@ TEST_CASE("families: the exact judge finds in each what the table says") {
     for (uint32_t i = 0; i < kInstancesPerFamily; ++i) {
       const Polygon polygon = instanceOf(family, random);
       if (faultsOf(polygon) == family.faults) continue;
-      FAIL_CHECK(family.name << ": " << faultNames(faultsOf(polygon)) << " " << describe(polygon));
+      FAIL_CHECK(std::string(family.name)
+                 << ": " << faultNames(faultsOf(polygon)) << " " << describe(polygon));
       break;
     }
   }
@@ -30,9 +31,9 @@ TEST_CASE("triangulatePolygon: every family has the outcome in the table, by bot
       const Polygon polygon = instanceOf(family, random);
       const std::string fault = faultOfTriangulators(polygon);
       if (fault.empty()) continue;
-      FAIL_CHECK(family.name << " (" << family.reason << "), instance " << i << ": " << fault
-                             << "\n"
-                             << describe(polygon));
+      FAIL_CHECK(std::string(family.name) << " (" << std::string(family.reason) << "), instance "
+                                          << i << ": " << fault << "\n"
+                                          << describe(polygon));
       break;
     }
   }
@@ -67,4 +68,71 @@ TEST_CASE("triangulatePolygon: garbage is accepted just if it is valid, and name
   }
   CHECK(valid > 300);
   CHECK(faulty > 300);
+}
+
+TEST_CASE(
+    "triangulatePolygon: with repair, garbage and faulty families are covered as the rule says") {
+  MESSAGE("seed 45");
+  Random random(45);
+  const auto check = [](const Polygon& polygon) {
+    for (const auto rule : {sf::Repair::EvenOdd, sf::Repair::NonZero}) {
+      const std::string fault = faultOfRepair(polygon, rule);
+      INFO(describe(polygon));
+      CHECK(fault == "");
+    }
+  };
+  for (int i = 0; i < 200; ++i) {
+    const uint32_t lattice = random.chance(0.5) ? 2 + random.below(9) : 0;
+    check(garbage(1 + random.below(3), 3 + random.below(15), lattice, random));
+  }
+  for (const Family& family : polygonFamilies())
+    for (int i = 0; i < 4 && family.faults != kNotFinite; ++i) check(instanceOf(family, random));
+}
+
+TEST_CASE("PolygonTriangulator: a batch has the triangles and faults of its polygons one by one") {
+  MESSAGE("seed 46");
+  Random random(46);
+  std::vector<double> positions;
+  std::vector<uint32_t> ringStarts = {0}, polygonStarts = {0};
+  std::vector<Polygon> polygons;
+  for (const Family& family : polygonFamilies())
+    for (int i = 0; i < 2; ++i) {
+      const Polygon polygon = instanceOf(family, random);
+      const uint32_t first = ringStarts.back();
+      positions.insert(positions.end(), polygon.positions.begin(), polygon.positions.end());
+      for (uint32_t r = 1; r <= polygon.ringCount(); ++r)
+        ringStarts.push_back(first + polygon.starts[r]);
+      polygonStarts.push_back(uint32_t(ringStarts.size()) - 1);
+      polygons.push_back(polygon);
+    }
+  for (const auto method : {sf::PolygonMethod::Flooding, sf::PolygonMethod::Trapezoids}) {
+    sf::PolygonOptions options;
+    options.method = method;
+    sf::Work work;
+    sf::PolygonBatchResult batch;
+    sf::PolygonTriangulator triangulator;
+    REQUIRE(
+        triangulator.triangulateBatch({positions, ringStarts, polygonStarts}, options, work, batch)
+            .ok());
+    CHECK(work.used() == 0);
+    REQUIRE(batch.triangleStarts.size() == polygons.size() + 1);
+    size_t fault = 0;
+    for (uint32_t p = 0; p < polygons.size(); ++p) {
+      sf::PolygonTriangulation single;
+      const sf::Outcome outcome =
+          sf::triangulatePolygon(viewOf(polygons[p]), options, work, single);
+      for (uint32_t& v : single.triangles) v += ringStarts[polygonStarts[p]];
+      const std::vector<uint32_t> part(batch.triangles.begin() + 3 * batch.triangleStarts[p],
+                                       batch.triangles.begin() + 3 * batch.triangleStarts[p + 1]);
+      CHECK(part == single.triangles);
+      if (outcome.ok()) continue;
+      REQUIRE(fault < batch.faults.size());
+      CHECK(batch.faults[fault].polygon == p);
+      CHECK(batch.faults[fault].outcome.status == outcome.status);
+      CHECK(batch.faults[fault].outcome.loop == outcome.loop);
+      CHECK(batch.faults[fault].outcome.vertex == outcome.vertex);
+      ++fault;
+    }
+    CHECK(fault == batch.faults.size());
+  }
 }

@@ -208,7 +208,7 @@ TEST_CASE("repair: any rings come back valid, with the area of odd or non-zero w
   MESSAGE("seed 61");
   for (const Kind& kind : kKinds) {
     Random random(61);
-    CAPTURE(kind.name);
+    INFO("kind ", std::string(kind.name));
     for (int i = 0; i < 80; ++i) {
       const Polygon polygon = kind.make(random);
       for (const Repair rule : {Repair::EvenOdd, Repair::NonZero})
@@ -221,7 +221,7 @@ TEST_CASE("repair: snap rounding alone leaves no crossing either, on grids of an
   MESSAGE("seed 62");
   for (const Kind& kind : kKinds) {
     Random random(62);
-    CAPTURE(kind.name);
+    INFO("kind ", std::string(kind.name));
     for (int i = 0; i < 60; ++i) {
       const Polygon polygon = kind.make(random);
       const int32_t bits = random.chance(0.4) ? 48 : 1 + int32_t(random.below(20));
@@ -237,7 +237,7 @@ TEST_CASE("repair: valid polygons keep their vertices and area") {
   for (const Family& family : polygonFamilies()) {
     if (family.faults != kValid) continue;
     Random random(63);
-    CAPTURE(family.name);
+    INFO("family ", std::string(family.name));
     for (int i = 0; i < 20; ++i) {
       const Polygon polygon = instanceOf(family, random);
       CAPTURE(describe(polygon));
@@ -271,7 +271,7 @@ TEST_CASE("repair: families with faults come back valid, but for coordinates tha
   for (const Family& family : polygonFamilies()) {
     if (family.faults == kValid) continue;
     Random random(64);
-    CAPTURE(family.name);
+    INFO("family ", std::string(family.name));
     for (int i = 0; i < 20; ++i) {
       const Polygon polygon = instanceOf(family, random);
       for (const Repair rule : {Repair::EvenOdd, Repair::NonZero}) {

@@ -57,3 +57,20 @@ TEST_CASE("triangulatePolygon: a million random polygons, valid and not, by both
   MESSAGE(valid << " of them valid");
   CHECK((valid > count / 3 || failed > 0));
 }
+
+TEST_CASE("triangulatePolygon: repairs of a hundred thousand random polygons and rings") {
+  const uint32_t seed = numberFrom("SF_SEED", 1), count = numberFrom("SF_COUNT", 1000000) / 10;
+  MESSAGE("seeds " << seed << " to " << seed + count - 1);
+  uint32_t failed = 0;
+  for (uint32_t i = 0; i < count && failed < 10; ++i) {
+    Random random(seed + i);
+    const Polygon polygon = anyPolygon(random);
+    if (faultsOf(polygon) == kNotFinite) continue;
+    for (const auto rule : {sf::Repair::EvenOdd, sf::Repair::NonZero}) {
+      const std::string fault = faultOfRepair(polygon, rule);
+      if (fault.empty()) continue;
+      ++failed;
+      FAIL_CHECK("seed " << seed + i << ": " << fault << "\n" << describe(polygon));
+    }
+  }
+}
