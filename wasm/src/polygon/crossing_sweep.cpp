@@ -142,11 +142,13 @@ class Sweep {
     return work_.tick(kUnitsPerCrossing);
   }
 
-  /// The order of the heap, whose greatest element comes out first.
+  /// The order of the heap, whose greatest element comes out first; total, so that which of two pairs
+  /// stands for a common point does not depend on how heaps are built.
   struct Later {
     const Sweep& sweep;
     bool operator()(const Pending& a, const Pending& b) const {
-      return compare(sweep.exact(a), sweep.exact(b)) > 0;
+      if (const int order = compare(sweep.exact(a), sweep.exact(b))) return order > 0;
+      return a.first != b.first ? a.first > b.first : a.second > b.second;
     }
   };
 
