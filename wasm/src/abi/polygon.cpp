@@ -92,7 +92,14 @@ sf::PolygonView Call::viewOf(uint32_t polygon) {
           starts_, points_};
 }
 
-sf::Outcome Call::runBatch() { return runEach(); }
+sf::Outcome Call::runBatch() {
+  const sf::PolygonBatch batch{positions_, ringStarts_, polygonStarts_};
+  const sf::Outcome outcome = triangulator_.triangulateBatch(batch, options_, work_, all_);
+  if (!outcome.ok()) return outcome;
+  for (const sf::PolygonFault& fault : all_.faults)
+    blame(fault.polygon, fault.outcome, viewOf(fault.polygon));
+  return {};
+}
 
 sf::Outcome Call::runEach() {
   const uint32_t count = uint32_t(polygonStarts_.size()) - 1;
