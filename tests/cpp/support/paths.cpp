@@ -74,9 +74,9 @@ bool isForFans(const Problem& problem) {
   // candidates, and hubs.
   Posed posed(problem);
   posed.addCandidates(problem);
-  const double c = double(posed.set.size());
-  return c > 0 && c <= 24 * (problem.vertexCount() + 2.0 * double(problem.curves.size()) - 4) &&
-         sf::FanBound::bytesFor(posed.loops, posed.set) <= 40 * sf::CandidateSet::bytesFor(c);
+  return posed.set.size() > 0 && !(hasTwoLoops(problem) && sf::isLarge(posed.loops, posed.set)) &&
+         sf::FanBound::bytesFor(posed.loops, posed.set) <=
+             40 * sf::CandidateSet::bytesFor(double(posed.set.size()));
 }
 bool isInput(const Problem& problem) { return !loopsMeet(problem.curves); }
 
@@ -216,7 +216,8 @@ PathAnswer passes(const Problem& problem, Random& random) {
 
 // --- through the solver's own choice
 
-PathAnswer solveAsChosen(const Problem& problem, bool anytime, uint64_t splitsPerVertex) {
+PathAnswer solveAsChosen(const Problem& problem, uint64_t firstSplits, bool anytime,
+                         const std::vector<uint32_t>& start) {
   Posed posed(problem);
   posed.addCandidates(problem);
   const uint64_t before = posed.work.used();
@@ -224,7 +225,8 @@ PathAnswer solveAsChosen(const Problem& problem, bool anytime, uint64_t splitsPe
   options.dihedralWeight = posed.weights.dihedral;
   options.objective = problem.options.objective;
   options.anytime = anytime;
-  options.splitsPerVertex = splitsPerVertex;
+  options.firstSplits = firstSplits;
+  options.start = start;
   sf::Surface surface;
   PathAnswer answer;
   if (!sf::solveSurface(posed.loops, posed.set, options, posed.work, surface))
@@ -237,9 +239,10 @@ PathAnswer solveAsChosen(const Problem& problem, bool anytime, uint64_t splitsPe
   return answer;
 }
 
-PathAnswer byFans(const Problem& problem, Random&) { return solveAsChosen(problem, false, 0); }
-PathAnswer bySearchFirst(const Problem& problem, Random&) {
-  return solveAsChosen(problem, true, sf::kSplitsPerVertex);
+PathAnswer byFans(const Problem& problem, Random&) { return solveAsChosen(problem, 1, false, {}); }
+/// From an earlier answer that is none: what is begun from must not matter.
+PathAnswer bySearchFirst(const Problem& problem, Random& random) {
+  return solveAsChosen(problem, sf::kUnlimited, true, randomTriples(problem.curves, 0.2, random));
 }
 
 PathAnswer bySpan(const Problem& problem, Random&) {
