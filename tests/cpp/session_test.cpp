@@ -369,6 +369,39 @@ TEST_CASE("session: strips stay long over many edits") {
   CHECK(double(indices) < 1.6 * double(session.triangles().size() / 3));
 }
 
+TEST_CASE("session: a start says which ring or vertex is wrong") {
+  const Ring square = {{0, 0}, {9, 0}, {9, 9}, {0, 9}}, hole = {{1, 1}, {1, 6}, {6, 6}, {6, 1}};
+  const Ring inner = {{2, 2}, {2, 3}, {3, 3}}, away = {{20, 2}, {20, 3}, {21, 3}};
+  const auto outcomeOf = [](const std::vector<Ring>& rings, const std::vector<double>& points) {
+    const Polygon polygon = polygonOf(rings);
+    PolygonSession session;
+    Work work;
+    return session.start({polygon.positions, polygon.starts, points}, work);
+  };
+  CHECK(outcomeOf({square, hole}, {8, 8}).ok());
+  Outcome o = outcomeOf({square, hole, inner}, {});
+  CHECK(o.status == Status::NestedHole);
+  CHECK(o.loop == 2);
+  CHECK(o.otherLoop == 1);
+  o = outcomeOf({square, hole, away}, {});
+  CHECK(o.status == Status::HoleOutside);
+  CHECK(o.loop == 2);
+  o = outcomeOf({hole, square}, {});  // a hole around everything
+  CHECK(o.status == Status::HoleOutside);
+  CHECK(o.loop == 1);
+  o = outcomeOf({square, hole}, {8, 8, 5, 5});  // the second island in the hole
+  CHECK(o.status == Status::HoleOutside);
+  CHECK(o.loop == 3);
+  CHECK(o.vertex == 0);
+  o = outcomeOf({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}}, {});
+  CHECK(o.status == Status::SelfIntersecting);
+  CHECK(o.loop == 0);
+  CHECK(o.otherLoop == 0);
+  o = outcomeOf({square, {{1, 1}, {2, 1}, {2, 2}, {1, 1}}, {{4, 4}, {5, 5}}}, {});
+  CHECK(o.status == Status::DegeneratePolygon);
+  CHECK(o.loop == 2);
+}
+
 TEST_CASE("session: refusals name what is in the way") {
   const Polygon polygon = polygonOf({{{0, 0}, {8, 0}, {8, 8}, {0, 8}},
                                      {{2, 2}, {2, 4}, {4, 4}, {4, 2}},

@@ -4,7 +4,7 @@
 // in the way by walking to it through triangles. All triangles are of positive area, by exact tests on
 // those that a change makes.
 //
-// Source: Kumar 1998, sec. 5: point location by walking across triangles, deletion of the triangles that
+// Source: Kumar, sec. 5: point location by walking across triangles, deletion of the triangles that
 // a new feature meets, triangulation of the hole that arises.
 // Differs: holes are filled by cutting ears, which takes them as they come, with edges that dangle in
 // them; their triangles are then made Delaunay by flips. Walks start at the place of the edit, so

@@ -9,7 +9,7 @@
 // parts inside and outside, no other edge does. Where that is contradictory, as when a hole would be
 // left outside, the whole is looked at again, and the edit is refused or, if valid after all, accepted.
 //
-// Source: Kumar 1998, sec. 5.
+// Source: Kumar, sec. 5.
 // Differs:
 // - Vertices can be moved as well, and the outside is triangulated too, which makes edits safe: an edge
 //   that crosses another meets it on the way, wherever that is.

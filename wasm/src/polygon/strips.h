@@ -4,7 +4,7 @@
 // exchanged; those with two equal indices are not drawn. A strip turns alternately right and left; to
 // turn the same way twice it repeats an index (a swap), which costs less than a new strip.
 //
-// Source: Kumar 2000, sec. 4.1: strips and no fans, with few indices.
+// Source: Kumar, sec. 4.1: strips and no fans, with few indices.
 // Differs: the paper writes strips while it triangulates each uni-monotone polygon, so that none is
 // longer than its polygon, a few triangles where many vertices are reflex. Here strips are found
 // afterwards over all triangles. Triangles are the nodes of the dual graph, strips are paths in it.

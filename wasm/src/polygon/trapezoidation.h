@@ -10,7 +10,7 @@
 // their diagonals and short edges. Hence the uni-monotone polygons are a counting sort of visibility
 // lines by the edges that they end on; neither trapezoids nor diagonals need be kept.
 //
-// Source: Kumar 1998, sec. 4, after Fournier, Montuno 1984, and Seidel 1991; sec. 4.1 for thin
+// Source: Kumar, sec. 4, after Fournier, Montuno 1984, and Seidel 1991; sec. 4.1 for thin
 // trapezoids.
 // Differs:
 // - Visibility lines come from a plane sweep (sweep.h), not from Seidel's randomised construction.

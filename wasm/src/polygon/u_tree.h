@@ -11,7 +11,7 @@
 // no local minimum is left in a part, its nearest vertex is next to v_t or to v_b, whichever of
 // these neighbours is nearer: the advancing strip of the paper.
 //
-// Source: Kumar 2000, sec. 4.1 and fig. 4.
+// Source: Kumar, sec. 4.1 and fig. 4.
 // Differs:
 // - Distances are measured from the base, not along u. The paper's rule holds while the base is short
 //   and upright; by the distance from the base the invariant holds for every base.
