@@ -106,13 +106,15 @@ SfStatus sf_session_open(const double* positions, const uint32_t* ringStarts, ui
                          const double* points, uint32_t pointCount, double maxBytes,
                          uint32_t* where, SfResult** result);
 
-/// An edit of a session; one that is refused leaves all as it was.
+/// An edit of a session; one that is refused leaves the polygon as it was, though perhaps with other
+/// triangles.
 ///   action  0 inserts a vertex after `vertex` of a ring, 1 an isolated one, 2 deletes `vertex`, 3
 ///           moves it
 ///   x, y    the place, for all but deletions
-///   where   [4] out: ring and number of the edited vertex and of the culprit, if refused
-///   result  out: 0 uint32_t [2] the vertex's number, and how many triangles there are now;
-///           1 uint32_t [c] which of these are new, and 2 uint32_t [3c] their corners; null if refused
+///   where   [4] out: nothing
+///   result  out: 0 uint32_t [7] the vertex's number, how many triangles there are now, and the status of the
+///           edit itself with ring and number of the edited vertex and of the culprit; 1 uint32_t [c]
+///           which triangles are new, and 2 uint32_t [3c] their corners
 SF_API(sf_session_edit)
 SfStatus sf_session_edit(uint32_t session, uint32_t action, uint32_t vertex, double x, double y,
                          uint32_t* where, SfResult** result);

@@ -65,7 +65,7 @@ const table: Readonly<Record<number, readonly [ErrorCode, (place: ErrorPlace) =>
     'hole-outside',
     (place) =>
       place.otherLoop === undefined
-        ? `${at(place.loop, undefined)}, a hole, is not inside the outer ring`
+        ? `${place.loop === 0 ? 'a hole' : `${at(place.loop, undefined)}, a hole,`} is not inside the outer ring`
         : `the edge from ${first(place)}, of a hole, crosses or overlaps the edge from ` +
           `${second(place)} of the outer ring`,
   ],

@@ -25,8 +25,9 @@ type Types = Parameters<typeof callCore>[2];
  * proportion to the triangles around the edit. Holds memory of the core until it is disposed of.
  *
  * Rings may not touch, and no two vertices have one place: codes are those of `triangulatePolygon`,
- * and `repeated-vertex`. An edit that would make the polygon invalid throws and changes nothing; `vertex` and
- * `otherVertex` of its error are numbers of vertices as everywhere in a session. After `crashed`, which
+ * and `repeated-vertex`. An edit that would make the polygon invalid throws and leaves the polygon as it
+ * was, if perhaps with other triangles, which the next edit's `changed` then names as well. `vertex`
+ * and `otherVertex` of its error are numbers of vertices as everywhere in a session. After `crashed`, which
  * only a defect of the core can bring about, all sessions are lost, and say so when they are used.
  */
 export class PolygonSession {
@@ -34,6 +35,8 @@ export class PolygonSession {
   #number: number | undefined;
   #triangles: Uint32Array;
   #count: number;
+  /** Triangles that edits have changed which were refused: the next one's to tell. */
+  readonly #untold = new Set<number>();
 
   /**
    * Vertices are numbered as in the input, isolated `points` after them; the directions of its rings
@@ -125,7 +128,7 @@ export class PolygonSession {
     if (!(Number.isInteger(vertex) && vertex >= 0 && vertex < 2 ** 32)) {
       throw new SoapfilmError('bad-option', `There is no vertex ${String(vertex)}`);
     }
-    const [[edited, triangleCount], changed, triangles] = this.#call(
+    const [[edited, triangleCount, status, ...where], changed, triangles] = this.#call(
       'sf_session_edit',
       [this.#alive(), action, vertex, x, y],
       [Uint32Array, Uint32Array, Uint32Array],
@@ -138,7 +141,20 @@ export class PolygonSession {
     }
     changed.forEach((t, i) => {
       this.#triangles.set(triangles.subarray(3 * i, 3 * i + 3), 3 * t);
+      if (status !== 0) this.#untold.add(t);
     });
-    return { vertex: edited, triangleCount, changed, triangles };
+    if (status !== 0) throw ringError(status, where);
+    if (this.#untold.size === 0) return { vertex: edited, triangleCount, changed, triangles };
+    const all = Uint32Array.from([...this.#untold, ...changed].filter((t) => t < triangleCount));
+    this.#untold.clear();
+    const told = [...new Set(all.sort())];
+    return {
+      vertex: edited,
+      triangleCount,
+      changed: Uint32Array.from(told),
+      triangles: Uint32Array.from(
+        told.flatMap((t) => Array.from(this.#triangles.subarray(3 * t, 3 * t + 3))),
+      ),
+    };
   }
 }

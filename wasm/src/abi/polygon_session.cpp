@@ -91,7 +91,6 @@ SfStatus sf_session_edit(uint32_t session, uint32_t action, uint32_t vertex, dou
     default:
       outcome = edited.moveVertex(vertex, {x, y}, work);
   }
-  if (!outcome.ok()) return end(outcome, where);
   const sf::ArrayView<const uint32_t> triangles = edited.triangles();
   std::vector<uint32_t> changed, corners;
   for (const uint32_t t : edited.changedTriangles()) {
@@ -100,10 +99,12 @@ SfStatus sf_session_edit(uint32_t session, uint32_t action, uint32_t vertex, dou
     for (uint32_t k = 0; k < 3; ++k) corners.push_back(triangles[3 * size_t(t) + k]);
   }
   *result = new SfResult;
-  (*result)->add(std::vector<uint32_t>{vertex, uint32_t(triangles.size() / 3)});
+  (*result)->add(std::vector<uint32_t>{vertex, uint32_t(triangles.size() / 3),
+                                       uint32_t(outcome.status), outcome.loop, outcome.vertex,
+                                       outcome.otherLoop, outcome.otherVertex});
   (*result)->add(std::move(changed));
   (*result)->add(std::move(corners));
-  return end(outcome, where);
+  return end({}, where);
 }
 
 SfStatus sf_session_read(uint32_t session, uint32_t* where, SfResult** result) {
