@@ -148,6 +148,22 @@ void widen(Vec3& extent, const Vec3& a, const Vec3& b) {
 }
 double greatest(const Vec3& v) { return max2(max2(v.x, v.y), v.z); }
 
+/// The sign of ax by - bx ay for differences that were computed without error, as those of points on
+/// a lattice or with a coordinate in common are; kUnknown if two roundings leave it open.
+constexpr int kUnknown = 2;
+int signOfMinor2(Pair ax, Pair ay, Pair bx, Pair by) {
+  if (ax.lo != 0 || ay.lo != 0 || bx.lo != 0 || by.lo != 0) return kUnknown;
+  const Pair l = twoProduct(ax.hi, by.hi), r = twoProduct(bx.hi, ay.hi);
+  const auto isSafe = [](double product, double a, double b) {
+    return std::fabs(product) > 0x1p-900 || a == 0 || b == 0;  // no underflow
+  };
+  if (!isSafe(l.hi, ax.hi, by.hi) || !isSafe(r.hi, bx.hi, ay.hi)) return kUnknown;
+  if (l.hi == r.hi) return l.lo > r.lo ? 1 : l.lo < r.lo ? -1 : 0;
+  // The first difference is the greater one by magnitude, unless both are one unit.
+  const double d = (l.hi - r.hi) + (l.lo - r.lo);
+  return d != 0 ? signOf(d) : kUnknown;
+}
+
 // The later stages are kept out of line, for the sake of the code around the calls.
 __attribute__((noinline)) int orient3dCarefully(const Vec3& a, const Vec3& b, const Vec3& c,
                                                 const Vec3& d, const Vec3& extent, double det) {
@@ -200,6 +216,8 @@ int orient2d(double ax, double ay, double bx, double by, double cx, double cy) {
   double my = max2(std::fabs(ay - cy), std::fabs(by - cy));
   double bound = kOrient2dBound * mx * my + kTiny;
   if (std::fabs(det) > bound) return signOf(det);
+  const int sign = signOfMinor2(twoDiff(ax, cx), twoDiff(ay, cy), twoDiff(bx, cx), twoDiff(by, cy));
+  if (sign != kUnknown) return sign;
   return orient2dIn<InExpansion>(ax, ay, bx, by, cx, cy).sign();
 }
 
@@ -209,6 +227,8 @@ int turn2d(double ax, double ay, double bx, double by, double cx, double cy, dou
   double my = max2(std::fabs(by - ay), std::fabs(dy - cy));
   double bound = kOrient2dBound * mx * my + kTiny;
   if (std::fabs(det) > bound) return signOf(det);
+  const int sign = signOfMinor2(twoDiff(bx, ax), twoDiff(by, ay), twoDiff(dx, cx), twoDiff(dy, cy));
+  if (sign != kUnknown) return sign;
   return turn2dIn<InExpansion>(ax, ay, bx, by, cx, cy, dx, dy).sign();
 }
 
