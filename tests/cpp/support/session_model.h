@@ -1,0 +1,48 @@
+// A polygon edited alongside a session, to judge the session by.
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "polygon/session.h"
+#include "support/polygon_oracle.h"
+
+namespace sftest {
+
+using Triangle = std::array<uint32_t, 3>;
+
+/// A polygon as lists of vertices with the session's numbers.
+struct Model {
+  struct Vertex {
+    uint32_t number;
+    Point at;
+  };
+  std::vector<std::vector<Vertex>> rings;
+  std::vector<Vertex> islands;
+
+  Polygon polygon() const;
+  std::vector<uint32_t> numbers() const;
+};
+
+/// Whether a session has to accept the polygon: valid, no two points equal, no touches, islands inside.
+bool acceptable(const Model& model);
+
+/// Triangles each from its least vertex on, in order.
+std::vector<Triangle> sorted(sf::ArrayView<const uint32_t> corners);
+/// The triangles that OpenGL draws of the session's strips; sets how many indices there are.
+std::vector<Triangle> drawn(const sf::PolygonSession& session, size_t& indices);
+
+/// What a session does not keep of its promises, judged from outside; empty if it keeps them.
+std::string faultOf(const sf::PolygonSession& session, const Model& model);
+
+/// Starts both with an acceptable polygon. False if the session refuses it.
+bool startBoth(sf::PolygonSession& session, Model& model, const Polygon& polygon,
+               const std::vector<Point>& islands);
+
+/// One random edit of both: of positions by about `reach`, to points of a lattice if that is not 0.
+/// Adds to `accepted` if the session took it. What is wrong then, empty if nothing is: the session
+/// accepts what is not acceptable or refuses what is, tells not all changes, or has a fault.
+std::string editBoth(sf::PolygonSession& session, Model& model, double reach, uint32_t lattice,
+                     Random& random, uint32_t& accepted);
+
+}  // namespace sftest
