@@ -24,6 +24,40 @@ void AngularTransform::apply(const double* innerTheta, const double* base, size_
   }
 }
 
+void AngularTransform::applySorted(const double* innerTheta, const double* base, size_t inner,
+                                   const double* outerTheta, size_t outer, double* result) {
+  const double weight = measure_.dihedralWeight();
+  if (measure_.isWorst() || measure_.cap() < kPi || weight == 0 || inner == 0) {
+    apply(innerTheta, base, inner, outerTheta, outer, result);
+    return;
+  }
+  // Opposite directions increase as well, once those of angles up to 0 come after the others.
+  size_t split = 0;
+  while (split < outer && outerTheta[split] <= 0) ++split;
+  const auto turned = [&](size_t j) { return j + split < outer ? j + split : j + split - outer; };
+  double up = kInfinity, down = kInfinity;
+  for (size_t i = 0; i < inner; ++i) {
+    up = std::min(up, base[i] - weight * innerTheta[i]);
+    down = std::min(down, base[i] + weight * innerTheta[i]);
+  }
+  // From one direction to the next, with what comes round the circle to begin with.
+  up += 2 * kPi * weight;
+  down += 2 * kPi * weight;
+  for (size_t j = 0, i = 0; j < outer; ++j) {
+    const double at = opposite(outerTheta[turned(j)]);
+    for (; i < inner && innerTheta[i] <= at; ++i)
+      up = std::min(up, base[i] - weight * innerTheta[i]);
+    result[turned(j)] = up + weight * at;
+  }
+  for (size_t j = outer, i = inner; j-- > 0;) {
+    const double at = opposite(outerTheta[turned(j)]);
+    for (; i > 0 && innerTheta[i - 1] >= at; --i)
+      down = std::min(down, base[i - 1] + weight * innerTheta[i - 1]);
+    double& best = result[turned(j)];
+    best = std::min(best, down - weight * at);
+  }
+}
+
 void AngularTransform::allPairs(const double* innerTheta, const double* base, size_t inner,
                                 const double* outerTheta, size_t outer, double* result) const {
   if (measure_.isWorst() || measure_.cap() < kPi) {

@@ -26,6 +26,10 @@ class AngularTransform {
   void apply(const double* innerTheta, const double* base, size_t inner, const double* outerTheta,
              size_t outer, double* result);
 
+  /// The same for angles that increase on either side: no sorting, O(inner + outer) for sums.
+  void applySorted(const double* innerTheta, const double* base, size_t inner,
+                   const double* outerTheta, size_t outer, double* result);
+
   /// Products of inner and outer counts up to which all pairs are the fastest, measured: for sums,
   /// and for maxima or with a cap. Tests change them, so that small input goes the other ways too.
 #ifdef SF_TESTING

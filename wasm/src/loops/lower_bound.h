@@ -14,7 +14,7 @@ class LowerBound {
   virtual ~LowerBound() = default;
   /// A lower bound on the cost of the domain of that canonical shape, with the slot's triangle as
   /// access triangle, whose bi-triangle weight is counted; infinity if no surface fills it. The
-  /// slot is on the access edge.
+  /// slot is on the access edge, and its apex not inside one of the domain's segments.
   virtual double value(Shape shape, uint32_t slot) = 0;
   /// The same for the root. Infinity: there is no surface.
   virtual double rootBound() const = 0;

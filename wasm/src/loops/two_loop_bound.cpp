@@ -32,50 +32,84 @@ void TwoLoopBound::apply(uint32_t edge, double* values) {
                    &pass_.set.slotTheta[pass_.set.edgeSlots[edge]], pass_.set.degree(edge), values);
 }
 
+bool TwoLoopBound::buildIncidences() {
+  const CandidateSet& set = pass_.set;
+  const Measure& measure = pass_.measure;
+  firstIncidence_.assign(size_t(sizeA_) * sizeB_ + 1, 0);
+  incidences_.clear();
+  const auto indexAt = [&](uint32_t t, uint32_t opposite) {
+    return set.slotOpposite(t, opposite) - set.edgeSlots[set.edgeOpposite(t, opposite)];
+  };
+  for (uint32_t place = 0; place < sizeA_; ++place) {
+    for (uint32_t b = 0; b < sizeB_; ++b) {
+      const size_t number = size_t(place) * sizeB_ + b, first = incidences_.size();
+      const uint32_t u = vertexA(place), v = firstB_ + b, edge = set.edgeBetween(u, v);
+      for (uint32_t s = edge == kNone ? 0 : set.edgeSlots[edge];
+           edge != kNone && s < set.edgeSlots[edge + 1]; ++s) {
+        const uint32_t t = set.slotTriangle[s], apex = set.slotApex[s];
+        const double w = pass_.triangleCost[t];
+        Incidence at{};
+        at.theta = set.slotTheta[s];
+        at.isOnA = apex - firstA_ < sizeA_;
+        at.apex = at.isOnA ? placeOf(apex) : apex - firstB_;
+        at.ownIndex = s - set.edgeSlots[edge];
+        at.index = indexAt(t, at.isOnA ? u : v);
+        for (int backward = 0; backward < 2; ++backward)
+          at.base[backward] = measure.join(w, at.isOnA   ? segmentValue(t, v, u, apex)
+                                              : backward ? segmentValue(t, u, v, apex)
+                                                         : segmentValue(t, u, apex, v));
+        incidences_.push_back(at);
+      }
+      std::sort(incidences_.begin() + std::ptrdiff_t(first), incidences_.end(),
+                [](const Incidence& x, const Incidence& y) { return x.theta < y.theta; });
+      firstIncidence_[number + 1] = incidences_.size();
+      if (!pass_.work.tick(uint32_t(100 * (incidences_.size() - first)) + 10)) return false;
+    }
+  }
+  return true;
+}
+
 void TwoLoopBound::computeFront(Context& c, uint32_t place, uint32_t length) {
   const CandidateSet& set = pass_.set;
-  const uint32_t u = vertexA(place), v = vertexB(c, length), edge = set.edgeBetween(u, v);
+  const uint32_t v = vertexB(c, length), edge = set.edgeBetween(vertexA(place), v);
   size_t& offset = c.offset[size_t(place) * (sizeB_ + 1) + length];
   offset = kNoEdge;
   // The closing edge cannot be closed by all of B.
   if (edge == kNone || (place == c.end && length == sizeB_)) return;
   offset = c.values.size();
-  c.values.resize(offset + set.degree(edge));
+  c.values.resize(offset + set.degree(edge), kInfinity);
   double* values = &c.values[offset];
-  const uint32_t begin = set.edgeSlots[edge], end = set.edgeSlots[edge + 1];
   if (place == c.end && length == 0) {
-    std::copy(&leastPair_[begin], &leastPair_[begin] + (end - begin), values);
+    const uint32_t begin = set.edgeSlots[edge];
+    std::copy(&leastPair_[begin], &leastPair_[begin] + set.degree(edge), values);
     return;
   }
-  const auto front = [&](uint32_t atPlace, uint32_t atLength, uint32_t slot) {
-    const size_t at = c.offset[size_t(atPlace) * (sizeB_ + 1) + atLength];
-    if (at == kNoEdge) return kInfinity;
-    return c.values[at + slot -
-                    set.edgeSlots[set.edgeOpposite(set.slotTriangle[slot], set.slotApex[slot])]];
-  };
   innerTheta_.clear();
   innerBase_.clear();
-  const Measure& measure = pass_.measure;
-  for (uint32_t s = begin; s < end; ++s) {
-    const uint32_t t = set.slotTriangle[s], apex = set.slotApex[s];
-    double base = pass_.triangleCost[t];
-    if (apex - firstA_ < sizeA_) {
-      const uint32_t at = placeOf(apex);
-      if (at <= place || at > c.end) continue;
-      base = measure.join(base, segmentValue(t, v, u, apex));
-      base = measure.join(base, front(at, length, set.slotOpposite(t, u)));
-    } else {
-      const uint32_t at = lengthTo(c, apex);
-      if (at >= length) continue;
-      base = measure.join(base,
-                          c.reversed ? segmentValue(t, u, v, apex) : segmentValue(t, u, apex, v));
-      base = measure.join(base, front(place, at, set.slotOpposite(t, v)));
+  outerTheta_.clear();
+  outerIndex_.clear();
+  const size_t number = size_t(place) * sizeB_ + (v - firstB_);
+  for (size_t i = firstIncidence_[number]; i < firstIncidence_[number + 1]; ++i) {
+    const Incidence& t = incidences_[i];
+    const uint32_t at = t.isOnA ? t.apex : lengthTo(c, firstB_ + t.apex);
+    // The access triangle is outside of the front; at the closing edge's ends there are both kinds.
+    if (t.isOnA ? at < place || at >= c.end : at == 0 || at >= length) {
+      outerTheta_.push_back(t.theta);
+      outerIndex_.push_back(t.ownIndex);
     }
+    if (t.isOnA ? at < place || at > c.end : at >= length) continue;
+    const size_t rest =
+        t.isOnA ? size_t(at) * (sizeB_ + 1) + length : size_t(place) * (sizeB_ + 1) + at;
+    if (c.offset[rest] == kNoEdge) continue;
+    const double base = pass_.measure.join(t.base[c.reversed], c.values[c.offset[rest] + t.index]);
     if (base == kInfinity) continue;
-    innerTheta_.push_back(set.slotTheta[s]);
+    innerTheta_.push_back(t.theta);
     innerBase_.push_back(base);
   }
-  apply(edge, values);
+  outerValue_.resize(outerIndex_.size());
+  transform_.applySorted(innerTheta_.data(), innerBase_.data(), innerBase_.size(),
+                         outerTheta_.data(), outerTheta_.size(), outerValue_.data());
+  for (size_t j = 0; j < outerIndex_.size(); ++j) values[outerIndex_[j]] = outerValue_[j];
 }
 
 bool TwoLoopBound::computeContext(Context& c) {
@@ -136,8 +170,9 @@ bool TwoLoopBound::compute() {
   const double fronts = double(sizeA_) * (sizeB_ + 1);
   const double degree =
       double(set.slotTriangle.size()) / double(std::max<size_t>(set.edgeCount(), 1));
-  const double bytes = 8.0 * (double(set.slotTriangle.size()) + 2 * fronts * sizeA_ +
-                              fronts * (degree + 1) + 0.5 * sizeA_ * sizeA_ * (degree + 2));
+  const double bytes =
+      8.0 * (double(set.slotTriangle.size()) + 2 * fronts * sizeA_ + fronts * (degree + 1) +
+             6 * sizeA_ * (sizeB_ * degree) + 0.5 * sizeA_ * sizeA_ * (degree + 2));
   contextBytes_ = 8.0 * fronts * (degree + 1);
   mostContexts_ = size_t(std::max(1.0, contextBytes / contextBytes_));
   if (!pass_.work.fits(bytes)) {
@@ -149,6 +184,7 @@ bool TwoLoopBound::compute() {
   leastPair_ = leastPairs(set, pass_.measure);
   starts_.assign(2 * size_t(sizeA_) * sizeB_ * sizeA_, kInfinity);
   holeOffset_.assign(size_t(sizeA_) * sizeA_, kNoEdge);
+  if (!buildIncidences()) return false;
   Context c;
   for (c.end = 1; c.end < sizeA_; ++c.end) {
     pass_.work.setFraction(double(c.end) * c.end / (double(sizeA_) * sizeA_));

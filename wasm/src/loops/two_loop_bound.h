@@ -49,9 +49,20 @@ class TwoLoopBound final : public LowerBound {
     std::vector<double> values;  // by offset and index of the slot at the access edge
   };
   static constexpr size_t kNoEdge = ~size_t(0);
+  /// A triangle at an edge between the loops: what it costs by itself as the first of a front, and
+  /// where the front that is left goes on.
+  struct Incidence {
+    double theta;
+    double base[2];  // w(t) joined with what fills the run that t cuts off; for B passed backward
+    uint32_t apex;   // place on A, or number within B
+    bool isOnA;
+    uint32_t ownIndex;  // of the slot at this edge
+    uint32_t index;     // of the slot at the edge that is left
+  };
 
   uint32_t vertexA(uint32_t place) const { return firstA_ + (place + rootPlace_) % sizeA_; }
   uint32_t placeOf(uint32_t v) const { return (v - firstA_ + sizeA_ - rootPlace_) % sizeA_; }
+  bool buildIncidences();
   uint32_t vertexB(const Context& c, uint32_t length) const {
     const uint32_t at = c.first - firstB_;
     return firstB_ + (c.reversed ? at + 2 * sizeB_ - length : at + length) % sizeB_;
@@ -88,7 +99,10 @@ class TwoLoopBound final : public LowerBound {
   double contextBytes_ = 0;
   uint64_t uses_ = 0, domainCount_ = 0;
   double rootBound_ = kInfinity;
-  std::vector<double> innerTheta_, innerBase_;
+  std::vector<size_t> firstIncidence_;  // [sizeA sizeB + 1] of the edges between place and number
+  std::vector<Incidence> incidences_;   // by edge and angle
+  std::vector<double> innerTheta_, innerBase_, outerTheta_, outerValue_;
+  std::vector<uint32_t> outerIndex_;
 };
 
 }  // namespace sf
