@@ -68,8 +68,8 @@ std::vector<uint32_t> triangulate(const Sight& sight, double flips, bool forStri
   return triangles;
 }
 
-/// With islands: the triangles' boundary and area are the polygon's, none is turned over or flat, and
-/// each vertex is used.
+/// With islands: the triangles' boundary and area are the polygon's, none is turned over or flat,
+/// and each vertex is used.
 std::string faultWithIslands(const LinkedPolygon& p, const std::vector<uint32_t>& triangles) {
   std::vector<std::pair<uint32_t, uint32_t>> edges;
   std::vector<bool> used(p.at.size(), false);
@@ -183,7 +183,8 @@ TEST_CASE(
     Work work;
     REQUIRE(findUniMonotonePolygons(p, sight.seen, true, work, polygons));
     REQUIRE(findTrapezoids(p, sight.seen, work, trapezoids));
-    // All sides of the polygons but bases: the diagonals, from both of their sides, and short edges.
+    // All sides of the polygons but bases: the diagonals, from both of their sides, and short
+    // edges.
     std::vector<std::pair<uint32_t, uint32_t>> sides, diagonals;
     uint32_t triangles = 0;
     for (uint32_t e = 0; e + 1 < polygons.starts.size(); ++e) {

@@ -114,7 +114,8 @@ TEST_CASE("u-tree: a root is the vertex nearest to its base, and the sides are t
 
 TEST_CASE(
     "u-tree: a chain without local minima becomes one strip, from the nearer side each time") {
-  // Two slopes up to a summit: the next vertex of the strip is the nearer of top's and bottom's next.
+  // Two slopes up to a summit: the next vertex of the strip is the nearer of top's and bottom's
+  // next.
   const Ring chain = {{0, 0}, {-1, 1}, {-3, 2}, {-5, 3}, {-4, 4}, {-2, 5}, {0, 6}};
   const std::vector<uint32_t> triangles = triangulate(chain, true);
   const std::vector<uint32_t> expected = {0, 6, 1, 1, 6, 5, 1, 5, 2, 2, 5, 4, 2, 4, 3};

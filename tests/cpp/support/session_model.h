@@ -24,7 +24,8 @@ struct Model {
   std::vector<uint32_t> numbers() const;
 };
 
-/// Whether a session has to accept the polygon: valid, no two points equal, no touches, islands inside.
+/// Whether a session has to accept the polygon: valid, no two points equal, no touches, islands
+/// inside.
 bool acceptable(const Model& model);
 
 /// Triangles each from its least vertex on, in order.

@@ -99,7 +99,8 @@ TriangleMesh::Place ConstrainedMesh::locate(Point2 p, uint32_t near) {
     }
     return place;
   };
-  // Walks may go round in circles where triangles are not Delaunay, but not if they choose at random.
+  // Walks may go round in circles where triangles are not Delaunay, but not if they choose at
+  // random.
   uint32_t h = mesh.edgeFrom[near], entered = kNone;
   for (uint32_t steps = 0; steps < 8 * mesh.triangleCount(); ++steps) {
     if (random() & 0x10000) h = nextInTriangle(h);
@@ -225,7 +226,8 @@ bool ConstrainedMesh::isEar(const std::vector<uint32_t>& ring, size_t i) const {
 
 /// Appends triangles that fill a ring, counter-clockwise, which may run along edges both ways.
 void ConstrainedMesh::fill(std::vector<uint32_t>& ring, std::vector<uint32_t>& corners) const {
-  // Whatever triangles fill it, they form a tree, of which a leaf is an ear: so there always is one.
+  // Whatever triangles fill it, they form a tree, of which a leaf is an ear: so there always is
+  // one.
   size_t i = 1;
   for (size_t tried = 0; ring.size() > 2 && tried <= ring.size();) {
     const size_t n = ring.size();
@@ -242,8 +244,8 @@ void ConstrainedMesh::fill(std::vector<uint32_t>& ring, std::vector<uint32_t>& c
   SF_ASSERT(ring.size() == 2);
 }
 
-/// The half-edge across which a-b leaves the triangles around a; kNone if a-b is an edge already, or
-/// if a vertex is in the way.
+/// The half-edge across which a-b leaves the triangles around a; kNone if a-b is an edge already,
+/// or if a vertex is in the way.
 uint32_t ConstrainedMesh::leaveTowards(uint32_t a, uint32_t b, Obstacle& obstacle) const {
   uint32_t h = mesh.edgeFrom[a];
   do {

@@ -1,14 +1,15 @@
-// A triangulated box whose vertices come and go, with edges that are kept: a planar straight-line graph.
+// A triangulated box whose vertices come and go, with edges that are kept: a planar straight-line
+// graph.
 //
-// It covers all of the box, whatever its fixed edges enclose, so that a point or an edge is found to be
-// in the way by walking to it through triangles. All triangles are of positive area, by exact tests on
-// those that a change makes.
+// It covers all of the box, whatever its fixed edges enclose, so that a point or an edge is found
+// to be in the way by walking to it through triangles. All triangles are of positive area, by exact
+// tests on those that a change makes.
 //
 // Source: Kumar, sec. 5: point location by walking across triangles, deletion of the triangles that
 // a new feature meets, triangulation of the hole that arises.
-// Differs: holes are filled by cutting ears, which takes them as they come, with edges that dangle in
-// them; their triangles are then made Delaunay by flips. Walks start at the place of the edit, so
-// no list of strips per grid row is needed to find one.
+// Differs: holes are filled by cutting ears, which takes them as they come, with edges that dangle
+// in them; their triangles are then made Delaunay by flips. Walks start at the place of the edit,
+// so no list of strips per grid row is needed to find one.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -23,22 +24,23 @@ class ConstrainedMesh {
   /// Vertices 0 to 3 are the corners of the box.
   static constexpr uint32_t kCorners = 4;
 
-  /// What keeps a point or an edge from being inserted: a vertex on the same spot or on the edge, or
-  /// the fixed edge from a vertex `edge` to the next of its ring.
+  /// What keeps a point or an edge from being inserted: a vertex on the same spot or on the edge,
+  /// or the fixed edge from a vertex `edge` to the next of its ring.
   struct Obstacle {
     uint32_t vertex = kNone;
     uint32_t edge = kNone;
   };
 
-  /// An empty box with corners at (-side, -side) and (side, side), for points `size` of which are to be
-  /// kept; coordinates times 2^-exponent are of about unit size.
+  /// An empty box with corners at (-side, -side) and (side, side), for points `size` of which are
+  /// to be kept; coordinates times 2^-exponent are of about unit size.
   void reset(double side, int exponent, size_t size);
   /// Places vertex v, which is not in the triangles.
   void setPosition(uint32_t v, Point2 p);
 
-  /// Makes vertices of an empty box vertices of the triangles, and then fixes the edges v - ringNext[v] of
-  /// all that have such; constrained Delaunay. False if `obstacle` is in the way of vertex `refused` or
-  /// of its edge, or, with no obstacle, when the work ended. Near-linear but for unnatural inputs.
+  /// Makes vertices of an empty box vertices of the triangles, and then fixes the edges v -
+  /// ringNext[v] of all that have such; constrained Delaunay. False if `obstacle` is in the way of
+  /// vertex `refused` or of its edge, or, with no obstacle, when the work ended. Near-linear but
+  /// for unnatural inputs.
   ///   vertices  reordered
   bool insertAll(std::vector<uint32_t>& vertices, ArrayView<const uint32_t> ringNext, Work& work,
                  uint32_t& refused, Obstacle& obstacle);
@@ -50,8 +52,8 @@ class ConstrainedMesh {
   bool insertEdge(uint32_t a, uint32_t b, Obstacle& obstacle);
   /// Moves v to p if all triangles around it keep positive area. They do not count as changed.
   bool shiftPoint(uint32_t v, Point2 p);
-  /// Flips edges to be Delaunay, but not fixed ones: those around a point inserted or shifted last, and
-  /// where that leads; at most `budget` flips.
+  /// Flips edges to be Delaunay, but not fixed ones: those around a point inserted or shifted last,
+  /// and where that leads; at most `budget` flips.
   void legalize(uint32_t budget);
   /// The same, of all changed triangles.
   void legalizeChanged(uint32_t budget);
@@ -62,7 +64,8 @@ class ConstrainedMesh {
     const uint32_t a = mesh.from(h), b = mesh.to(h);
     return next[a] == b || prev[a] == b;
   }
-  /// A half-edge of a triangle that p lies in, on its border at most; `onEdge` if on that half-edge.
+  /// A half-edge of a triangle that p lies in, on its border at most; `onEdge` if on that
+  /// half-edge.
   TriangleMesh::Place locate(Point2 p, uint32_t near);
   /// The half-edge after h around the vertex where both start, counter-clockwise.
   uint32_t around(uint32_t h) const { return mesh.twins[prevInTriangle(h)]; }

@@ -1,7 +1,7 @@
 // Constrained Delaunay triangles of a polygon, by insertion of its vertices in random rounds.
 //
-// Flips of an existing triangulation need O(n) each vertex where long thin triangles lie side by side, as
-// across the inside of a smooth curve; insertion needs a few whatever the polygon.
+// Flips of an existing triangulation need O(n) each vertex where long thin triangles lie side by
+// side, as across the inside of a smooth curve; insertion needs a few whatever the polygon.
 //
 // Source: Guibas, Knuth, Sharir 1992; Amenta, Choi, Rote 2003, for the order.
 #pragma once

@@ -15,7 +15,8 @@ uint32_t hilbertNumber(uint32_t x, uint32_t y) {
   for (uint32_t half = 1u << (kBits - 1); half > 0; half >>= 1) {
     const uint32_t right = (x & half) != 0, top = (y & half) != 0;
     number = number << 2 | ((3 * right) ^ top);
-    // Into the frame of the quarter: the first and the last are transposed, the last turned as well.
+    // Into the frame of the quarter: the first and the last are transposed, the last turned as
+    // well.
     if (top == 0) {
       if (right != 0) x = ~x, y = ~y;
       std::swap(x, y);

@@ -179,7 +179,8 @@ void PolygonSession::giveUp(uint32_t v) {
   unused_.push_back(v);
 }
 
-/// Makes v a vertex at p, between a and b unless these are kNone. If that fails nothing of it is left.
+/// Makes v a vertex at p, between a and b unless these are kNone. If that fails nothing of it is
+/// left.
 bool PolygonSession::place(uint32_t v, Point2 p, uint32_t a, uint32_t b, Obstacle& obstacle) {
   mesh_.setPosition(v, p);
   if (a != kNone) near_ = a;
@@ -208,7 +209,8 @@ void PolygonSession::takeOut(uint32_t v) {
   mesh_.removePoint(v);
 }
 
-/// For an edit that leaves the box: v, already linked to its ring, goes to p, and all is built anew.
+/// For an edit that leaves the box: v, already linked to its ring, goes to p, and all is built
+/// anew.
 Outcome PolygonSession::rebuildWith(uint32_t v, Point2 p, Work& work) {
   mesh_.setPosition(v, p);
   const Outcome outcome = build(work);

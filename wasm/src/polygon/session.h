@@ -1,20 +1,21 @@
-// A polygon whose vertices are inserted, deleted and moved, with its triangles and strips kept up to
-// date around the edit alone.
+// A polygon whose vertices are inserted, deleted and moved, with its triangles and strips kept up
+// to date around the edit alone.
 //
-// The session triangulates a box around the polygon, outside and holes included, with the rings' edges
-// fixed in it. That is the certificate (polygon/certificate.h: the polygon and its complement), and it
-// is local: all triangles are of positive area and every ring edge is one of theirs, so edges meet in
-// common vertices alone. An edit changes triangles around the old and the new place of one vertex and
-// tests those. What lies inside follows from the triangles next to the changed ones: a ring edge
-// parts inside and outside, no other edge does. Where that is contradictory, as when a hole would be
-// left outside, the whole is looked at again, and the edit is refused or, if valid after all, accepted.
+// The session triangulates a box around the polygon, outside and holes included, with the rings'
+// edges fixed in it. That is the certificate (polygon/certificate.h: the polygon and its
+// complement), and it is local: all triangles are of positive area and every ring edge is one of
+// theirs, so edges meet in common vertices alone. An edit changes triangles around the old and the
+// new place of one vertex and tests those. What lies inside follows from the triangles next to the
+// changed ones: a ring edge parts inside and outside, no other edge does. Where that is
+// contradictory, as when a hole would be left outside, the whole is looked at again, and the edit
+// is refused or, if valid after all, accepted.
 //
 // Source: Kumar, sec. 5.
 // Differs:
-// - Vertices can be moved as well, and the outside is triangulated too, which makes edits safe: an edge
-//   that crosses another meets it on the way, wherever that is.
-// - Strips are cut where triangles change, and what is left is joined again at its ends ("strips tend to
-//   become fragmented after a while" otherwise; no complete re-triangulation is needed).
+// - Vertices can be moved as well, and the outside is triangulated too, which makes edits safe: an
+//   edge that crosses another meets it on the way, wherever that is.
+// - Strips are cut where triangles change, and what is left is joined again at its ends ("strips
+//   tend to become fragmented after a while" otherwise; no complete re-triangulation is needed).
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -28,28 +29,29 @@ namespace sf {
 
 class PolygonSession {
  public:
-  /// Begins with a polygon. Vertices are numbered as in the input, islands after them; a repeated first
-  /// vertex at a ring's end has a number but is no vertex.
-  /// Stricter than PlaneSweep::run, since all triangles are to be of positive area: rings may not touch.
-  /// Errors: BadStarts, NotFinite, DegeneratePolygon, RepeatedVertex (two vertices of one position),
-  /// SelfIntersecting, HolesOverlap, HoleOutside, NestedHole, OutOfMemory, Stopped; `loop` and
-  /// `vertex` as there. The session is empty after an error.
+  /// Begins with a polygon. Vertices are numbered as in the input, islands after them; a repeated
+  /// first vertex at a ring's end has a number but is no vertex.
+  /// Stricter than PlaneSweep::run, since all triangles are to be of positive area: rings may not
+  /// touch. Errors: BadStarts, NotFinite, DegeneratePolygon, RepeatedVertex (two vertices of one
+  /// position), SelfIntersecting, HolesOverlap, HoleOutside, NestedHole, OutOfMemory, Stopped;
+  /// `loop` and `vertex` as there. The session is empty after an error.
   /// O(n log n) time for all but unnatural inputs, about 300 bytes a vertex.
   Outcome start(const PolygonView& polygon, Work& work);
 
   // Edits. On errors the polygon is as before. In their outcomes `vertex` is the edited vertex (or
-  // the one after which a vertex was to be inserted) and `otherVertex` the culprit: a vertex that the
-  // place or a new edge meets, or the first vertex of an edge that they meet; both in the session's
-  // numbers, with their rings. Statuses are those of start, and BadOption for a vertex that there is
-  // not. Cost: the triangles that the edit meets, for all but edits that turn a ring inside out or
-  // leave the box around the polygon, which cost as much as start.
+  // the one after which a vertex was to be inserted) and `otherVertex` the culprit: a vertex that
+  // the place or a new edge meets, or the first vertex of an edge that they meet; both in the
+  // session's numbers, with their rings. Statuses are those of start, and BadOption for a vertex
+  // that there is not. Cost: the triangles that the edit meets, for all but edits that turn a ring
+  // inside out or leave the box around the polygon, which cost as much as start.
 
-  /// Inserts a vertex at p between ring vertex `before` and the next one; its number is returned in v.
+  /// Inserts a vertex at p between ring vertex `before` and the next one; its number is returned in
+  /// v.
   Outcome insertVertex(uint32_t before, Point2 p, Work& work, uint32_t& v);
   /// Inserts an isolated vertex strictly inside.
   Outcome insertIsland(Point2 p, Work& work, uint32_t& v);
-  /// Deletes a vertex of a ring, whose neighbours are then joined, or an island. A ring keeps 3 vertices.
-  /// The number may be given to a vertex inserted later.
+  /// Deletes a vertex of a ring, whose neighbours are then joined, or an island. A ring keeps 3
+  /// vertices. The number may be given to a vertex inserted later.
   Outcome deleteVertex(uint32_t v, Work& work);
   Outcome moveVertex(uint32_t v, Point2 p, Work& work);
 
@@ -60,10 +62,11 @@ class PolygonSession {
   /// The next vertex of v's ring, with the polygon to the left; kNone for islands.
   uint32_t nextInRing(uint32_t v) const;
 
-  /// [3m] the triangles inside, counter-clockwise, in an order that edits keep but for the triangles
-  /// changed.
+  /// [3m] the triangles inside, counter-clockwise, in an order that edits keep but for the
+  /// triangles changed.
   ArrayView<const uint32_t> triangles() const { return triangles_; }
-  /// Which triangles the last edit changed or added, by increasing number; those from m on are gone.
+  /// Which triangles the last edit changed or added, by increasing number; those from m on are
+  /// gone.
   ArrayView<const uint32_t> changedTriangles() const { return changedSlots_; }
   /// Writes the strips as writeStrips does, in vertices' numbers. O(m) time, all but free of tests.
   bool strips(Work& work, std::vector<uint32_t>& vertices, std::vector<uint32_t>& starts) const;

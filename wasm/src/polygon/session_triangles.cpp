@@ -1,5 +1,5 @@
-// What a session knows of its triangles: which lie inside, in what order they are handed out, and how
-// they join to strips.
+// What a session knows of its triangles: which lie inside, in what order they are handed out, and
+// how they join to strips.
 #include <algorithm>
 
 #include "polygon/session.h"
@@ -130,7 +130,8 @@ Outcome PolygonSession::finish(uint32_t edited) {
   mesh_.legalizeChanged(kFlips);
   uint32_t culprit;
   if (!settleInside(culprit)) {
-    // Labels are looked for in all triangles; those that the edit left with none are not to be kept.
+    // Labels are looked for in all triangles; those that the edit left with none are not to be
+    // kept.
     Outcome outcome = findInsideAnew();
     if (!outcome.ok()) {
       const Status status = outcome.status;
@@ -260,7 +261,8 @@ bool PolygonSession::certify() const {
     if ((ring_[v] != kNone) != mesh_.contains(v)) return false;
     if (mesh_.next[v] != kNone && mesh_.prev[mesh_.next[v]] != v) return false;
   }
-  // A map of the box onto itself that is the identity on its border and nowhere folded is one to one.
+  // A map of the box onto itself that is the identity on its border and nowhere folded is one to
+  // one.
   if (border != 4 || fixed != edges || inside != triangleIn_.size()) return false;
   for (uint32_t s = 0; s < triangleIn_.size(); ++s)
     for (uint32_t k = 0; k < 3; ++k)

@@ -10,8 +10,8 @@ constexpr uint32_t kStripCost = 33;
 constexpr uint32_t kSwapCost = 16;
 constexpr uint32_t kForbidden = 1u << 30;
 
-// A turn of a path in a triangle that it enters by half-edge `in` and leaves by `out`: 0 if out follows
-// in, 1 otherwise. Travelled the other way, the turn is the other one.
+// A turn of a path in a triangle that it enters by half-edge `in` and leaves by `out`: 0 if out
+// follows in, 1 otherwise. Travelled the other way, the turn is the other one.
 uint32_t turnOf(uint32_t in, uint32_t out) { return out == nextInTriangle(in) ? 0 : 1; }
 // The first turn of a strip, in its second triangle, has to be 1 or costs a swap.
 uint32_t firstTurnCost(uint32_t turn) { return turn == 0 ? kSwapCost : 0; }
@@ -24,8 +24,8 @@ class StripFinder {
   bool run();
 
  private:
-  // Least costs of what hangs below a triangle t in the forest, by what t has to do with the strip of
-  // the triangle above. The strip itself is paid for at its upper end.
+  // Least costs of what hangs below a triangle t in the forest, by what t has to do with the strip
+  // of the triangle above. The strip itself is paid for at its upper end.
   struct Costs {
     uint32_t apart;        // not in the strip of the triangle above
     uint32_t ends;         // that strip ends in t
@@ -69,8 +69,8 @@ class StripFinder {
   std::vector<uint32_t> path_;  // union-find over the triangles of one path
 };
 
-// How a triangle stands to the strip of the triangle above: the members of Costs by number, the turns as
-// kTurns + 2 turn + starts.
+// How a triangle stands to the strip of the triangle above: the members of Costs by number, the
+// turns as kTurns + 2 turn + starts.
 constexpr int kApart = 0, kEnds = 1, kTurns = 2;
 
 // Depth first, so that paths are long; straight on (the turns alternating) where there is a choice.
@@ -283,8 +283,8 @@ void writeStrip(ArrayView<const uint32_t> corners, ArrayView<const uint32_t> twi
 }  // namespace
 
 uint32_t StripLinks::swapsToJoin(ArrayView<const uint32_t> twins, uint32_t h) const {
-  // The turn in the triangle of an end when its strip goes on across its half-edge, and the turn before
-  // that; 2 where there is none.
+  // The turn in the triangle of an end when its strip goes on across its half-edge, and the turn
+  // before that; 2 where there is none.
   const auto turnsTo = [&](uint32_t out, uint32_t& before) {
     before = 2;
     const uint32_t in = only(out / 3);

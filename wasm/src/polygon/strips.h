@@ -1,16 +1,17 @@
 // Triangle strips over a triangulation, in the order OpenGL draws them.
 //
-// A strip s of indices stands for the triangles (s[i], s[i+1], s[i+2]), the odd ones with the first two
-// exchanged; those with two equal indices are not drawn. A strip turns alternately right and left; to
-// turn the same way twice it repeats an index (a swap), which costs less than a new strip.
+// A strip s of indices stands for the triangles (s[i], s[i+1], s[i+2]), the odd ones with the first
+// two exchanged; those with two equal indices are not drawn. A strip turns alternately right and
+// left; to turn the same way twice it repeats an index (a swap), which costs less than a new strip.
 //
 // Source: Kumar, sec. 4.1: strips and no fans, with few indices.
 // Differs: the paper writes strips while it triangulates each uni-monotone polygon, so that none is
 // longer than its polygon, a few triangles where many vertices are reflex. Here strips are found
 // afterwards over all triangles. Triangles are the nodes of the dual graph, strips are paths in it.
-// Over a spanning forest the paths of least index count are found exactly, by dynamic programming from
-// the leaves; the dual graph of a polygon without interior points and holes is a tree, so there they are
-// the best there are. Elsewhere ends of paths are then joined across the other edges.
+// Over a spanning forest the paths of least index count are found exactly, by dynamic programming
+// from the leaves; the dual graph of a polygon without interior points and holes is a tree, so
+// there they are the best there are. Elsewhere ends of paths are then joined across the other
+// edges.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -21,8 +22,8 @@
 
 namespace sf {
 
-/// Which edges strips cross: bit k of links[t] for half-edge 3t + k of a TriangleMesh. A triangle has at
-/// most two; the triangles and the edges crossed form paths, the strips.
+/// Which edges strips cross: bit k of links[t] for half-edge 3t + k of a TriangleMesh. A triangle
+/// has at most two; the triangles and the edges crossed form paths, the strips.
 class StripLinks {
  public:
   std::vector<uint8_t> bits;

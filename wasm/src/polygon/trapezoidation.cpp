@@ -141,8 +141,8 @@ bool scaleMetric(ArrayView<const Point2> at, std::vector<Point2>& scaled) {
   return false;
 }
 
-/// Flips the edge between a triangle with three neighbours and one with no other, an ear, where the two
-/// that arise are not much thinner: one end of a strip fewer.
+/// Flips the edge between a triangle with three neighbours and one with no other, an ear, where the
+/// two that arise are not much thinner: one end of a strip fewer.
 void TrapezoidTriangulator::removeEars() {
   TriangleMesh& m = mesh_;
   const auto neighbours = [&](uint32_t t) {
@@ -162,8 +162,8 @@ void TrapezoidTriangulator::removeEars() {
   }
 }
 
-/// Where point p lies: along the horizontal line by which it sees the edge e to its left, whose half-edge
-/// runs down. No vertex is level with p, since `below` tilts horizontals.
+/// Where point p lies: along the horizontal line by which it sees the edge e to its left, whose
+/// half-edge runs down. No vertex is level with p, since `below` tilts horizontals.
 TriangleMesh::Place TrapezoidTriangulator::followSight(uint32_t e, uint32_t p) const {
   for (;;) {
     const uint32_t w = mesh_.apex(e);
@@ -177,8 +177,8 @@ TriangleMesh::Place TrapezoidTriangulator::followSight(uint32_t e, uint32_t p) c
   }
 }
 
-/// Where point p lies, by steps from the triangle of h towards it; not found if a boundary is in the
-/// way, or after many steps.
+/// Where point p lies, by steps from the triangle of h towards it; not found if a boundary is in
+/// the way, or after many steps.
 TriangleMesh::Place TrapezoidTriangulator::walk(uint32_t h, uint32_t p) const {
   for (int step = 0; step < kLongestWalk; ++step) {
     bool inside = true;

@@ -1,28 +1,29 @@
 // Trapezoids of a polygon, their diagonals, the uni-monotone polygons between these, and triangles.
 //
-// The horizontal visibility lines of all nodes cut the polygon into trapezoids. Each has one node on
-// its lower side and one on its upper side; a diagonal joins the two unless an edge of the polygon does.
-// The diagonals cut the polygon into uni-monotone polygons.
+// The horizontal visibility lines of all nodes cut the polygon into trapezoids. Each has one node
+// on its lower side and one on its upper side; a diagonal joins the two unless an edge of the
+// polygon does. The diagonals cut the polygon into uni-monotone polygons.
 //
 // Each edge of the polygon is the base ("monotone segment") of exactly one of these, and its chain
 // consists of the nodes whose visibility lines end on that edge: the trapezoids along an edge are
-// stacked, two of them that follow each other share the node between them, and so the chain runs through
-// their diagonals and short edges. Hence the uni-monotone polygons are a counting sort of visibility
-// lines by the edges that they end on; neither trapezoids nor diagonals need be kept.
+// stacked, two of them that follow each other share the node between them, and so the chain runs
+// through their diagonals and short edges. Hence the uni-monotone polygons are a counting sort of
+// visibility lines by the edges that they end on; neither trapezoids nor diagonals need be kept.
 //
 // Source: Kumar, sec. 4, after Fournier, Montuno 1984, and Seidel 1991; sec. 4.1 for thin
 // trapezoids.
 // Differs:
 // - Visibility lines come from a plane sweep (sweep.h), not from Seidel's randomised construction.
-// - Isolated vertices take part in the sweep, but not in the trapezoids of triangulateTrapezoids: a grid
-//   would be rows of trapezoids as wide as the polygon and of no height. Over 20 x 20 points in a
-//   blob the mean smallest angle is 3.8 degrees that way, whatever the monotone triangulation. They are
-//   inserted into the finished triangles, in random rounds, and edges around them flipped.
-// - Diagonals of thin trapezoids are made like all others and then flipped where the other diagonal of
-//   the two triangles is better. That reaches what not making them would (the chains on both sides
-//   then exchange triangles), without monotone polygons of two chains. Most polygons need a third of
-//   a flip a triangle. Where most trapezoids are thin, as across the inside of a densely sampled curve,
-//   O(n) flips a vertex would be; there the vertices are inserted one by one instead.
+// - Isolated vertices take part in the sweep, but not in the trapezoids of TrapezoidTriangulator: a
+//   grid would be rows of trapezoids as wide as the polygon and of no height. Over 20 x 20 points
+//   in a blob the mean smallest angle is 3.8 degrees that way, whatever the monotone triangulation.
+//   They are inserted into the finished triangles, in random rounds, and edges around them flipped.
+// - Diagonals of thin trapezoids are made like all others and then flipped where the other diagonal
+//   of the two triangles is better. That reaches what not making them would (the chains on both
+//   sides then exchange triangles), without monotone polygons of two chains. Most polygons need a
+//   third of a flip a triangle. Where most trapezoids are thin, as across the inside of a densely
+//   sampled curve, O(n) flips a vertex would be; there the vertices are inserted one by one
+//   instead.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -46,9 +47,10 @@ struct Trapezoid {
 bool findTrapezoids(const LinkedPolygon& linked, const Visibility& seen, Work& work,
                     std::vector<Trapezoid>& trapezoids);
 
-/// Polygon 2u has the base u - prev[u] and its chain to the right, polygon 2u + 1 the base u - next[u]
-/// and its chain to the left. Polygon i is chain[starts[i]] .. chain[starts[i+1] - 1], from its lowest
-/// vertex to its highest; empty where node u has no such edge upwards, or nothing is seen from it.
+/// Polygon 2u has the base u - prev[u] and its chain to the right, polygon 2u + 1 the base u -
+/// next[u] and its chain to the left. Polygon i is chain[starts[i]] .. chain[starts[i+1] - 1], from
+/// its lowest vertex to its highest; empty where node u has no such edge upwards, or nothing is
+/// seen from it.
 struct UniMonotonePolygons {
   std::vector<uint32_t> starts;  // [2m+1]
   std::vector<uint32_t> chain;
@@ -62,12 +64,13 @@ bool findUniMonotonePolygons(const LinkedPolygon& linked, const Visibility& seen
 /// Triangulates polygons by trapezoids and u-trees; keeps its memory from one to the next.
 class TrapezoidTriangulator {
  public:
-  /// Appends the triangles, as nodes, counter-clockwise and of positive area, to `triangles`. Islands
-  /// are vertices of them. False when the work ended.
+  /// Appends the triangles, as nodes, counter-clockwise and of positive area, to `triangles`.
+  /// Islands are vertices of them. False when the work ended.
   ///   seen       of all nodes, not of sags alone
-  ///   flips      how many flips a triangle are tried to improve angles, before all vertices are rather
-  ///              inserted into a Delaunay triangulation; 0 leaves the u-trees' triangles
-  ///   forStrips  whether some edges are flipped so that strips get longer, at a small loss in angles
+  ///   flips      how many flips a triangle are tried to improve angles, before all vertices are
+  ///              rather inserted into a Delaunay triangulation; 0 leaves the u-trees' triangles
+  ///   forStrips  whether some edges are flipped so that strips get longer, at a small loss in
+  ///              angles
   bool triangulate(const LinkedPolygon& linked, const Visibility& seen, double flips,
                    bool forStrips, Work& work, std::vector<uint32_t>& triangles);
 

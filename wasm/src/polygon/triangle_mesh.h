@@ -1,10 +1,10 @@
 // Triangles that share edges, as half-edges in flat arrays, and what changes them in place.
 //
-// Triangle t has the corners corners[3t .. 3t+2], counter-clockwise. Half-edge 3t + k runs from corner
-// k to corner k + 1 of t; its twin runs the other way in the triangle on its other side.
+// Triangle t has the corners corners[3t .. 3t+2], counter-clockwise. Half-edge 3t + k runs from
+// corner k to corner k + 1 of t; its twin runs the other way in the triangle on its other side.
 //
-// Source: Lawson 1977, "Software for C1 surface interpolation", for flips; Guibas, Knuth, Sharir 1992,
-// "Randomized incremental construction of Delaunay and Voronoi diagrams", for insertion.
+// Source: Lawson 1977, "Software for C1 surface interpolation", for flips; Guibas, Knuth, Sharir
+// 1992, "Randomized incremental construction of Delaunay and Voronoi diagrams", for insertion.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -22,8 +22,8 @@ inline uint32_t prevInTriangle(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; 
 /// Finds the twin of every half-edge. False when the work ended.
 ///   corners      [3m] indices below vertexCount, all triangles of one orientation
 ///   twins        [3m] out: half-edges, kNone where no other triangle has that edge
-/// An edge that more than one pair of triangles has, as at touching vertices, is paired in some way.
-/// O(m) time for triangles that do not overlap, also where one vertex has very many.
+/// An edge that more than one pair of triangles has, as at touching vertices, is paired in some
+/// way. O(m) time for triangles that do not overlap, also where one vertex has very many.
 bool findTwins(ArrayView<const uint32_t> corners, uint32_t vertexCount, Work& work,
                std::vector<uint32_t>& twins);
 
@@ -56,19 +56,20 @@ struct TriangleMesh {
     if (g != kNone) twins[g] = h;
   }
 
-  /// Whether the apex across h lies inside the circle through the triangle of h, and the two triangles
-  /// form a strictly convex quadrilateral; false if there is no twin.
+  /// Whether the apex across h lies inside the circle through the triangle of h, and the two
+  /// triangles form a strictly convex quadrilateral; false if there is no twin.
   bool isIllegal(uint32_t h) const;
   /// Replaces h by the other diagonal of its quadrilateral, which has to be strictly convex. With
   /// g the twin of h, next(h) and next(g) become the new diagonal; h and g, which keep their first
   /// vertices, and the half-edges before them become the sides.
   void flip(uint32_t h);
-  /// Divides the triangle of h by vertex v strictly inside it: h stays, with apex v, and two triangles
-  /// are created.
+  /// Divides the triangle of h by vertex v strictly inside it: h stays, with apex v, and two
+  /// triangles are created.
   void splitTriangle(uint32_t h, uint32_t v);
   /// Divides edge h, which has a twin, by vertex v strictly inside it; two triangles are created.
   void splitEdge(uint32_t h, uint32_t v);
-  /// One of the two, where `place` says that v lies; the edges opposite v are appended to `opposite`.
+  /// One of the two, where `place` says that v lies; the edges opposite v are appended to
+  /// `opposite`.
   struct Place {
     uint32_t edge = kNone;  // v is in the triangle of this half-edge; kNone: not found
     bool onEdge = false;    // v lies on the edge itself
@@ -84,8 +85,8 @@ struct TriangleMesh {
 
 /// Flips illegal edges until none is left among `edges` and those that flips then call in question,
 /// or until `budget` flips are done. Empties `edges`; returns how many flips were left.
-/// Flips are final in the sense of Lawson: any order ends, with constrained Delaunay triangles if all
-/// edges were given; after few flips most of the gain in angles is made.
+/// Flips are final in the sense of Lawson: any order ends, with constrained Delaunay triangles if
+/// all edges were given; after few flips most of the gain in angles is made.
 uint32_t legalize(TriangleMesh& mesh, std::vector<uint32_t>& edges, uint32_t budget, Work& work);
 
 }  // namespace sf
