@@ -26,8 +26,8 @@ export interface Limits {
 export interface Case {
   /** Unique; words of the command line are looked for in it. */
   readonly id: string;
-  /** Cases of one series differ in size alone: their times give a scaling exponent. */
-  readonly series: string;
+  /** Cases of one series differ in size alone: their times give a scaling exponent. Null: of none. */
+  readonly series: string | null;
   /** A curve file below tests, or loops to write into one of that name. */
   readonly curves: string;
   readonly loops?: readonly Loop[];
@@ -66,7 +66,7 @@ function make(
   const kind = `${space} ${weighing}`;
   return {
     id: `${family} ${size} ${kind}`,
-    series: `${family} ${input.k} ${kind}`,
+    series: space === 'auto' ? null : `${family} ${input.k} ${kind}`,
     ...input,
     space,
     objective: weighing === 'worst' ? 'worst-dihedral' : 'sum',
@@ -152,8 +152,8 @@ function manyLoops(): Case[] {
   });
 }
 
-/** The authors' program on committed inputs: seconds and megabytes. */
-const kAuthors: readonly [string, Space, Weighing, number, number, number][] = [
+/** Committed inputs, and the seconds and megabytes of the authors' program where it has ended. */
+const kAuthors: readonly [string, Space, Weighing, number, number?, number?][] = [
   ['monkey_50', 'all', 'dihedral', 50, 1.06, 40.6],
   ['monkey_100', 'all', 'dihedral', 100, 20.3, 162.7],
   ['monkey_150', 'all', 'dihedral', 150, 124.6, 639.8],
@@ -161,6 +161,8 @@ const kAuthors: readonly [string, Space, Weighing, number, number, number][] = [
   ['monkey_500', 'delaunay', 'dihedral', 500, 0.0865, 33.8],
   ['saddle2_10', 'all', 'dihedral', 20, 3.07, 67.5],
   ['saddle2_15', 'all', 'dihedral', 30, 66.6, 478.3],
+  ['saddle2_20', 'all', 'dihedral', 40],
+  ['saddle2_40', 'all', 'dihedral', 80],
   ['saddle3_4', 'all', 'dihedral', 12, 1.43, 62.0],
   ['saddle3_5', 'all', 'dihedral', 15, 16.4, 384.8],
   ['saddle2_100', 'delaunay', 'dihedral', 200, 0.17, 36],
@@ -174,16 +176,14 @@ const kAuthors: readonly [string, Space, Weighing, number, number, number][] = [
 ];
 const kOwnCurves = ['monkey_150', 'saddle2_250', 'saddle3_60'];
 
-function authorsCases(): Case[] {
+function committedCases(): Case[] {
   return kAuthors.map(([name, space, weighing, n, seconds, megabytes]) => {
     const folder = kOwnCurves.includes(name) ? 'bench/curves' : 'fixtures/curves';
     const k = Number(/^saddle(\d)/.exec(name)?.[1] ?? 1);
     const input = { curves: `${folder}/${name}.curve`, k, n };
     const goal = withGoal(`${k}x${n / k}`, space, weighing);
-    return make('authors', name, input, space, weighing, {
-      ...goal,
-      authors: { seconds, megabytes },
-    });
+    const authors = seconds && megabytes ? { authors: { seconds, megabytes } } : {};
+    return make('committed', name, input, space, weighing, { ...goal, ...authors, series: null });
   });
 }
 
@@ -203,7 +203,7 @@ export const allCases = (): Case[] => [
   ...[2, 3, 4, 5, 6].flatMap((pose) => saddles(6, 'delaunay', [10], pose)),
   ...meshCases(),
   ...manyLoops(),
-  ...authorsCases(),
+  ...committedCases(),
 ];
 
 /** The two loops of the interactive case. */
