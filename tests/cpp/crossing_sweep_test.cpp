@@ -111,7 +111,7 @@ TEST_CASE("findCrossings: the points inside every edge are those that comparing 
     Work work;
     {
       Charge charge(work);
-      REQUIRE(sf::findCrossings(at, c.edges, work, charge, found));
+      REQUIRE(sf::findCrossings(at, c.edges, size_t(-1), work, charge, found));
     }
     CHECK(work.used() == 0);
     const auto wanted = cutsByBrute(c);
@@ -150,7 +150,7 @@ TEST_CASE("findCrossings: winding numbers and neighbours of edges that do not cr
   Crossings found;
   Work work;
   Charge charge(work);
-  REQUIRE(sf::findCrossings(at, edges, work, charge, found));
+  REQUIRE(sf::findCrossings(at, edges, 0, work, charge, found));
   CHECK(found.cuts.empty());
   CHECK(found.winding == std::vector<int32_t>{1, 0, 1, 2, 1, 2, 1, 0, 0});
   CHECK(found.left == std::vector<uint32_t>{1, sf::kNone, 1, 4, 1, 4, 1, 2, sf::kNone});

@@ -209,7 +209,7 @@ TEST_CASE("repair: any rings come back valid, with the area of odd or non-zero w
   for (const Kind& kind : kKinds) {
     Random random(61);
     INFO("kind ", std::string(kind.name));
-    for (int i = 0; i < 80; ++i) {
+    for (int i = 0; i < 50; ++i) {
       const Polygon polygon = kind.make(random);
       for (const Repair rule : {Repair::EvenOdd, Repair::NonZero})
         checkRepair(polygon, rule, {}, kind.slack);
@@ -222,7 +222,7 @@ TEST_CASE("repair: snap rounding alone leaves no crossing either, on grids of an
   for (const Kind& kind : kKinds) {
     Random random(62);
     INFO("kind ", std::string(kind.name));
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 40; ++i) {
       const Polygon polygon = kind.make(random);
       const int32_t bits = random.chance(0.4) ? 48 : 1 + int32_t(random.below(20));
       const double slack = 1e-13 + 8 * std::ldexp(1, -bits);

@@ -14,9 +14,15 @@ constexpr uint32_t kUnitsPerEvent = 500, kUnitsPerCrossing = 5000;
 
 class Sweep {
  public:
-  Sweep(ArrayView<const Point2> at, ArrayView<const WeightedEdge> edges, Work& work, Charge& charge,
-        Crossings& result)
-      : at_(at), edges_(edges), work_(work), charge_(charge), ownCharge_(work), result_(result) {}
+  Sweep(ArrayView<const Point2> at, ArrayView<const WeightedEdge> edges, size_t most, Work& work,
+        Charge& charge, Crossings& result)
+      : at_(at),
+        edges_(edges),
+        most_(most),
+        work_(work),
+        charge_(charge),
+        ownCharge_(work),
+        result_(result) {}
 
   bool run() {
     const size_t e = edges_.size();
@@ -26,7 +32,7 @@ class Sweep {
     order_.reset(e);
     result_.crossings.clear(), result_.cuts.clear();
     result_.winding.assign(e, 0), result_.left.assign(e, kNone);
-    while (vertex_ < at_.size() || !pending_.empty())
+    while ((vertex_ < at_.size() || !pending_.empty()) && result_.cuts.size() <= most_)
       if (!work_.tick(kUnitsPerEvent) || !pass()) return false;
     return true;
   }
@@ -154,6 +160,7 @@ class Sweep {
 
   ArrayView<const Point2> at_;
   ArrayView<const WeightedEdge> edges_;
+  size_t most_;
   Work& work_;
   Charge& charge_;    // of the result
   Charge ownCharge_;  // of all else
@@ -169,9 +176,9 @@ class Sweep {
 
 }  // namespace
 
-bool findCrossings(ArrayView<const Point2> at, ArrayView<const WeightedEdge> edges, Work& work,
-                   Charge& charge, Crossings& result) {
-  return Sweep(at, edges, work, charge, result).run();
+bool findCrossings(ArrayView<const Point2> at, ArrayView<const WeightedEdge> edges, size_t most,
+                   Work& work, Charge& charge, Crossings& result) {
+  return Sweep(at, edges, most, work, charge, result).run();
 }
 
 }  // namespace sf

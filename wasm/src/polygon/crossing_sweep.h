@@ -42,9 +42,10 @@ struct Crossings {
 /// Finds where edges cross, and points that lie inside edges.
 ///   at     [m] different points in `below` order, in the range of polygon/crossing_point.h
 ///   edges  [e] by increasing `low`, no two with the same ends
+///   most   how many cuts to find at most: the sweep ends early when there are more
 /// Overlapping edges are cut at each other's ends. O((m + e + k) log (m + e + k)) time for k cuts,
 /// memory charged to `charge`. False once `work` has to end.
-bool findCrossings(ArrayView<const Point2> at, ArrayView<const WeightedEdge> edges, Work& work,
-                   Charge& charge, Crossings& result);
+bool findCrossings(ArrayView<const Point2> at, ArrayView<const WeightedEdge> edges, size_t most,
+                   Work& work, Charge& charge, Crossings& result);
 
 }  // namespace sf

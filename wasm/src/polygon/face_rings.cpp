@@ -169,7 +169,7 @@ bool FaceTracer::nest() {
   }
   if (hasHoles) {
     Crossings order;
-    if (!findCrossings(at_, kept_, work_, charge_, order)) return false;
+    if (!findCrossings(at_, kept_, 0, work_, charge_, order)) return false;
     SF_ASSERT(order.cuts.empty());
     std::vector<uint32_t> chain;
     for (uint32_t r = 0; r < rings; ++r) {

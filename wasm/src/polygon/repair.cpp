@@ -126,15 +126,20 @@ bool Repairer::start() {
 /// Rounds until nothing crosses. Where edges are all but parallel, every bend may make more crossings
 /// than it ends, so neither rounds nor edges may go on growing.
 bool Repairer::resolve() {
-  size_t allowed = 0;
+  size_t allowed = size_t(-1);
   for (uint32_t round = 0;; ++round) {
-    if (!findCrossings(at_, edges_, work_, charge_, found_)) return false;
+    if (!findCrossings(at_, edges_, allowed, work_, charge_, found_)) return false;
     if (found_.cuts.empty()) return true;
-    if (round == 0) allowed = 2 * (edges_.size() + found_.cuts.size());
-    if (round >= limits_.rounds || edges_.size() + found_.cuts.size() > allowed) break;
+    const size_t pieces = edges_.size() + found_.cuts.size();
+    if (round == 0) allowed = 2 * pieces;
+    if (round >= limits_.rounds || pieces > allowed) break;
     if (!splitAtCuts()) return false;
   }
-  return snap() && findCrossings(at_, edges_, work_, charge_, found_);
+  // First to the cells of vertices alone: of many edges that are all but one, few are left.
+  found_.crossings.clear();
+  if (!snap() || !findCrossings(at_, edges_, size_t(-1), work_, charge_, found_)) return false;
+  if (found_.cuts.empty()) return true;
+  return snap() && findCrossings(at_, edges_, size_t(-1), work_, charge_, found_);
 }
 
 /// Every edge becomes the chain of its pieces between the rounded points on it.
