@@ -129,7 +129,7 @@ void checkRepair(const Polygon& polygon, Repair rule, RepairLimits limits = {},
         slack * extent * extent * polygon.vertexCount());
 }
 
-// Kinds of rings that are hard to round: each is to have an area within `slack` of its extent squared.
+// Kinds of rings that are hard to round; areas are to be right within `slack` of the extent squared.
 struct Kind {
   const char* name;
   double slack;

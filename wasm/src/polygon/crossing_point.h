@@ -1,6 +1,6 @@
 // Points where two segments cross: exact tests on them, though no double need hold their places.
-// Source: Bentley, Ottmann 1979, "Algorithms for reporting and counting geometric intersections", for
-// the tests that a sweep over crossings needs; Shewchuk 1997 for the arithmetic.
+// Source: Bentley, Ottmann 1979, "Algorithms for reporting and counting geometric intersections",
+// for the tests that a sweep over crossings needs; Shewchuk 1997 for the arithmetic.
 // Differs: every test has a filter on the rounded point, whose error is known, and then expansions.
 //
 // Coordinates: 0 or of magnitude in [2^-200, 1], as for base/predicates.

@@ -1,8 +1,8 @@
 // All crossings of segments in the plane, and the winding numbers of the faces they bound.
 // Source: Bentley, Ottmann 1979, "Algorithms for reporting and counting geometric intersections".
-// Differs: exact, so that touching, overlapping and concurrent segments need no care; an event takes
-// all segments through its point out of the order along the sweep line and puts those that go on
-// back by direction.
+// Differs: exact, so that touching, overlapping and concurrent segments need no care; an event
+// takes all segments through its point out of the order along the sweep line and puts those that go
+// on back by direction.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -123,8 +123,8 @@ bool Repairer::start() {
   return renumber();
 }
 
-/// Rounds until nothing crosses. Where edges are all but parallel, every bend may make more crossings
-/// than it ends, so neither rounds nor edges may go on growing.
+/// Rounds until nothing crosses. Where edges are all but parallel, every bend may make more
+/// crossings than it ends, so neither rounds nor edges may go on growing.
 bool Repairer::resolve() {
   size_t allowed = size_t(-1);
   for (uint32_t round = 0;; ++round) {

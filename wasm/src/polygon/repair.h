@@ -1,13 +1,13 @@
 // Valid polygons from any rings: the points of odd, or of non-zero, winding number.
 //
 // Source: Bentley, Ottmann 1979 for the crossings; Hobby 1999, "Practical segment intersection with
-// finite precision output", and Guibas, Marimont 1998, "Rounding arrangements dynamically", for snap
-// rounding.
+// finite precision output", and Guibas, Marimont 1998, "Rounding arrangements dynamically", for
+// snap rounding.
 // Differs: crossings are rounded to the nearest doubles and the edges through them bent; the result
-// is looked at again, exactly, until nothing crosses any more, which takes two or three rounds, and no
-// input point moves. Bends of edges that are all but parallel may go on making crossings. Then all is
-// rounded to a grid of 2^-48 of the extent, and edges bent to every cell that they pass and that
-// holds a point: that makes no crossings.
+// is looked at again, exactly, until nothing crosses any more, which takes two or three rounds, and
+// no input point moves. Bends of edges that are all but parallel may go on making crossings. Then
+// all is rounded to a grid of 2^-48 of the extent, and edges bent to every cell that they pass and
+// that holds a point: that makes no crossings.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -39,9 +39,9 @@ struct RepairLimits {
 };
 
 /// The points whose winding number is odd (Repair::EvenOdd) or not 0 (Repair::NonZero), once the
-/// first ring has been turned counter-clockwise and the others clockwise, as far as they have signed
-/// area. Valid polygons come back as they are but for equal and touching points. No rings are left
-/// if no point qualifies. Coordinates below 2^-200 of the largest of their axis count as 0.
+/// first ring has been turned counter-clockwise and the others clockwise, as far as they have
+/// signed area. Valid polygons come back as they are but for equal and touching points. No rings are
+/// left if no point qualifies. Coordinates below 2^-200 of the largest of their axis count as 0.
 ///   polygon  any finite coordinates up to 1e150; isolated points are ignored
 /// Errors: BadStarts, NotFinite, TooLarge, OutOfMemory, Stopped. O((n + k) log (n + k)) time and
 /// O(n + k) memory for k crossings, charged to `work`.

@@ -1,9 +1,9 @@
 // Snap rounding: the crossings of edges on a grid.
 // Source: Hobby 1999; Guibas, Marimont 1998: if every edge is bent to the centres of all hot cells
-// that it passes, in order, those being the cells that hold an end of an edge or a crossing, then the
-// pieces meet in their ends alone.
-// Differs: hot cells are found again from a tree of boxes; a crossing whose cell is in doubt
-// makes every cell hot that it may be in, which the theorem allows.
+// that it passes, in order, those being the cells that hold an end of an edge or a crossing, then
+// the pieces meet in their ends alone.
+// Differs: hot cells are found again from a tree of boxes; a crossing whose cell is in doubt makes
+// every cell hot that it may be in, which the theorem allows.
 #pragma once
 #include "polygon/crossing_sweep.h"
 
