@@ -10,18 +10,24 @@
 #include "loops/candidate_set.h"
 #include "loops/edge_protection.h"
 #include "loops/loop_check.h"
+#include "loops/near_space.h"
 #include "loops/polygon_solver.h"
 #include "loops/solver.h"
 
 namespace sf {
 namespace {
 
-/// Time within which `auto` takes all triples at once, in predicted nanoseconds of native code.
-constexpr double kPatience = 3e8;
+/// Time within which `auto` takes all triples at once, in predicted nanoseconds of native code; for two
+/// loops less, since on noisy ones the domains that the prediction leaves out take ten times as long.
+constexpr double kPatience = 3e8, kPatienceForTwo = 4e7;
+/// Vertices of one loop up to which `auto` takes the `near` space: about a second.
+constexpr uint32_t kAutoNear = 2000;
 /// Nearest neighbours of the `near` space, before it is widened.
 constexpr uint32_t kFirstReach = 8, kLastReach = 64;
 /// Candidates beyond which the `near` space is not widened further.
 constexpr double kMostNear = 4e6;
+/// Times that the `near` space of two loops is enlarged around its optimum, at most.
+constexpr uint32_t kNearRounds = 3;
 /// Squares of coordinates have to stay finite.
 constexpr double kLargestCoordinate = 1e150;
 
@@ -106,14 +112,24 @@ class Spanning {
       case Space::Auto:
         break;
     }
-    if (predictedTimeOfAllTriples(loops_) <= kPatience && allTriplesFit()) return runAll();
-    partShare_ = 0.5;
-    Outcome outcome = runDelaunay();
-    if (outcome.status == Status::NotFound) outcome = runNear();
-    return outcome;
+    return runAuto();
   }
 
  private:
+  /// All triples while that is quick, else near ones; Delaunay facets where those are too many or
+  /// not to be had, and the other way round where the facets hold no surface.
+  Outcome runAuto() {
+    const uint32_t k = loops_.loopCount();
+    const double patience = k == 2 ? kPatienceForTwo : kPatience;
+    if (predictedTimeOfAllTriples(loops_) <= patience && allTriplesFit()) return runAll();
+    partShare_ = 0.5;
+    const bool isNearQuick =
+        hasNearOptimalTriples(unit_, work_) && (k > 1 || loops_.vertexCount() <= kAutoNear);
+    Outcome outcome = isNearQuick ? runNear() : runDelaunay();
+    if (outcome.status == Status::NotFound) outcome = isNearQuick ? runDelaunay() : runNear();
+    return outcome.status == Status::NotFound && allTriplesFit() ? runAll() : outcome;
+  }
+
   /// Weights for unit_, times the power of two that brings the largest of them near 1: sums of very
   /// large or very small ones neither overflow nor vanish.
   void scaleWeights() {
@@ -256,12 +272,44 @@ class Spanning {
     return solve(problem, std::move(triples), {});
   }
 
+  /// Candidates are the facets and the triples of near-optimal surfaces; for two loops then also
+  /// those around the optimum among them, until it gets no better.
+  Outcome runNearOptimal(std::vector<uint32_t> list) {
+    const Problem problem = unchangedProblem(unit_, options_);
+    TriangleWeights weights = triangleWeights(problem, {});
+    // A small sum of angles goes with small ones.
+    if (options_.objective == Objective::WorstDihedral) weights.dihedral = 1;
+    for (uint32_t round = 0;; ++round) {
+      std::vector<uint32_t> triples;
+      const bool chosen = nearOptimalTriples(unit_, weights, result_.triangles, work_, list) &&
+                          facetTriples(unit_, list, work_, triples);
+      const double before = result_.cost;
+      const uint64_t candidates = result_.candidates;
+      const Outcome outcome =
+          chosen ? solve(problem, std::move(triples), {}) : Outcome{work_.status()};
+      if (!outcome.ok()) {
+        // What was optimal among fewer candidates stays.
+        if (round == 0 || !options_.bestSoFar) return outcome;
+        result_.candidates = candidates;
+        return {};
+      }
+      const bool isBetter = round == 0 || result_.cost < before - 1e-9 * std::fabs(before);
+      if (loops_.loopCount() == 1 || !isBetter || round == kNearRounds) return {};
+      beginSpace(Space::Near);
+    }
+  }
+
   Outcome runNear() {
     partShare_ = 0.5;
     beginSpace(Space::Near);
     Delaunay cells;
     const Status status = delaunay(unit_.positions(), work_, cells);
     if (status != Status::Ok) return {status};
+    if (hasNearOptimalTriples(unit_, work_)) {
+      const Outcome outcome = runNearOptimal(cells.facets);
+      if (outcome.status != Status::NotFound) return outcome;
+      beginSpace(Space::Near);
+    }
     for (uint32_t reach = kFirstReach;; reach *= 2) {
       if (reach > kFirstReach) beginSpace(Space::Near);
       const double predicted = predictedNearTriples(unit_, reach) + double(cells.facets.size() / 3);
@@ -273,7 +321,7 @@ class Spanning {
       if (outcome.status != Status::NotFound) return outcome;
       if (reach >= kLastReach || reach >= loops_.vertexCount()) break;
     }
-    return options_.space == Space::Auto && allTriplesFit() ? runAll() : Outcome{Status::NotFound};
+    return {Status::NotFound};
   }
 
   Outcome solve(const Problem& problem, std::vector<uint32_t> triples,

@@ -1,0 +1,164 @@
+#include "loops/near_space.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "loops/polygon_chart.h"
+#include "loops/polygon_solver.h"
+#include "loops/span.h"
+#include "loops/weight.h"
+#include "support/cases.h"
+#include "support/generators.h"
+#include "support/surface.h"
+
+using namespace sf;
+using namespace sftest;
+
+namespace {
+
+std::vector<PolygonChart::Corner> cornersOf(const LoopSet& loops) {
+  std::vector<PolygonChart::Corner> corners;
+  for (uint32_t v = 0; v < loops.vertexCount(); ++v) corners.push_back({v, false, {}});
+  return corners;
+}
+
+/// Sum over triangles and inner edges, by normals alone.
+double costOf(const LoopSet& loops, const std::vector<PolygonChart::Triangle>& surface,
+              const TriangleWeights& w) {
+  const auto normal = [&](const PolygonChart::Triangle& t) {
+    const Vec3 p = loops.position(t.corner[0]);
+    return cross(loops.position(t.corner[1]) - p, loops.position(t.corner[2]) - p);
+  };
+  double sum = 0;
+  for (size_t i = 0; i < surface.size(); ++i) {
+    sum += 0.5 * w.area * length(normal(surface[i]));
+    for (size_t j = 0; j < i; ++j) {
+      int shared = 0;
+      for (const uint32_t a : surface[i].corner)
+        for (const uint32_t b : surface[j].corner) shared += a == b;
+      if (shared == 2) sum += w.dihedral * angleBetween(normal(surface[i]), normal(surface[j]));
+    }
+  }
+  return sum;
+}
+
+double spanCost(const Curves& curves, Space space, double area, double dihedral) {
+  Problem problem;
+  problem.curves = curves;
+  problem.options.areaWeight = area;
+  problem.options.dihedralWeight = dihedral;
+  problem.options.space = space;
+  const Answer answer = solve(problem);
+  REQUIRE(answer.outcome.ok());
+  return answer.span.found ? answer.span.cost : kInfinity;
+}
+
+}  // namespace
+
+TEST_CASE("polygon chart: its best surface costs what it says, and no less than the optimum") {
+  MESSAGE("seeds 61000 to 61029");
+  for (uint32_t seed = 61000; seed < 61030; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    const LoopSet loops = loopSet(randomLoops({4 + random.below(30)}, 0, random));
+    TriangleWeights weights;
+    weights.area = random.chance(0.5) ? 1 : 0;
+    weights.dihedral = weights.area == 0 || random.chance(0.7) ? 1 : 0;
+    Work work;
+    PolygonChart chart(loops, weights, work);
+    REQUIRE(chart.compute(cornersOf(loops)));
+    std::vector<PolygonChart::Triangle> surface;
+    chart.trace(surface);
+    REQUIRE(surface.size() == loops.vertexCount() - 2);
+    const double cost = costOf(loops, surface, weights);
+    CHECK(std::fabs(chart.best() - cost) < 1e-3 * (1 + cost));
+    PolygonSurface optimum;
+    REQUIRE(solvePolygon(loops, weights, Objective::Sum, work, optimum));
+    CHECK(cost >= optimum.lowerBound * (1 - 1e-9));
+    CHECK(cost <= optimum.lowerBound * 1.1);
+  }
+}
+
+TEST_CASE("polygon chart: near triangles hold the best surface, by increasing excess") {
+  Random random(62);
+  MESSAGE("seed 62");
+  const LoopSet loops = loopSet(randomLoops({40}, 0, random));
+  TriangleWeights weights;
+  weights.dihedral = 1;
+  Work work;
+  PolygonChart chart(loops, weights, work);
+  REQUIRE(chart.compute(cornersOf(loops)));
+  std::vector<PolygonChart::Triangle> surface, few, many;
+  chart.trace(surface);
+  chart.nearBest(1e-4 * chart.best(), 1000, few);
+  chart.nearBest(0.2 * chart.best(), 100000, many);
+  CHECK(few.size() < many.size());
+  for (const PolygonChart::Triangle& t : surface) {
+    const auto isSame = [&](const PolygonChart::Triangle& o) {
+      return std::equal(t.corner, t.corner + 3, o.corner);
+    };
+    CHECK(std::any_of(few.begin(), few.end(), isSame));
+  }
+  for (const PolygonChart::Triangle& t : many) CHECK(double(t.excess) <= 0.2 * chart.best());
+  chart.nearBest(0.2 * chart.best(), 50, few);
+  CHECK(few.size() == 50);
+}
+
+TEST_CASE("near space: near the optimum over all triples, and no dearer than the facets") {
+  MESSAGE("seeds 63000 to 63019");
+  double ratios = 0;
+  int count = 0, close = 0;
+  for (uint32_t seed = 63000; seed < 63020; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    const bool two = seed % 2 == 1;
+    const Curves curves = two ? randomLoops({6 + random.below(4), 6 + random.below(4)}, 0.5, random)
+                              : Curves{noisyCircle(20 + random.below(30), 0.3, random)};
+    if (loopsMeet(curves)) continue;
+    const double dihedral = seed % 4 < 2 ? 1 : 0.1, area = seed % 4 < 2 ? 0 : 1;
+    const double all = spanCost(curves, Space::All, area, dihedral);
+    const double near = spanCost(curves, Space::Near, area, dihedral);
+    CHECK(near >= all * (1 - 1e-9));
+    ratios += near / all;
+    close += near <= 1.02 * all;
+    ++count;
+  }
+  REQUIRE(count > 10);
+  CHECK(close >= count - 1);
+  CHECK(ratios <= 1.02 * count);
+}
+
+TEST_CASE("near space: a long noisy loop, whose chart keeps some of the segments only") {
+  Random random(64);
+  MESSAGE("seed 64");
+  const Curves curves = {noisyCircle(700, 0.01, random)};
+  const double near = spanCost(curves, Space::Near, 0, 1);
+  const double facets = spanCost(curves, Space::Delaunay, 0, 1);
+  CHECK(near < kInfinity);
+  CHECK(near < facets);
+}
+
+TEST_CASE("near space: three loops and far too many vertices are left to wider spaces") {
+  Random random(65);
+  const Work work;
+  CHECK(hasNearOptimalTriples(loopSet(randomLoops({9}, 0, random)), work));
+  CHECK(hasNearOptimalTriples(loopSet(randomLoops({9, 9}, 1, random)), work));
+  CHECK_FALSE(hasNearOptimalTriples(loopSet(randomLoops({5, 5, 5}, 2, random)), work));
+  CHECK_FALSE(hasNearOptimalTriples(loopSet({circle(5000)}), work));
+  const Work little(1000, nullptr, nullptr);
+  CHECK_FALSE(hasNearOptimalTriples(loopSet(randomLoops({40}, 0, random)), little));
+}
+
+TEST_CASE("near space: the work ends when told to") {
+  Random random(66);
+  const LoopSet loops = loopSet({noisyCircle(300, 0.1, random)});
+  TriangleWeights weights;
+  weights.dihedral = 1;
+  const auto stop = [](void*, double, double, double) { return false; };
+  Work work(size_t(1) << 30, stop, nullptr);
+  std::vector<uint32_t> triples;
+  CHECK_FALSE(nearOptimalTriples(loops, weights, {}, work, triples));
+  CHECK(work.status() == Status::Stopped);
+}

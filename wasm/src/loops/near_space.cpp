@@ -1,0 +1,233 @@
+#include "loops/near_space.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "loops/polygon_chart.h"
+#include "loops/weight.h"
+
+namespace sf {
+namespace {
+
+using Corners = std::vector<PolygonChart::Corner>;
+
+/// Triangles taken for each vertex: of one loop, and of two for each bridge.
+constexpr size_t kPerVertex = 12;
+constexpr size_t kPerVertexAndBridge = 6;
+/// By how much of the least cost the surfaces of those triangles may be dearer.
+constexpr double kDearer = 0.1, kDearerWithBridge = 0.4;
+/// Of the bridges tried, those whose triangles are taken: by cost, of all and of the valid ones.
+constexpr size_t kTaken = 12;
+/// Vertices for each bridge that is tried: of a surface, and of short ones in two directions.
+constexpr uint32_t kVerticesPerBridge = 4, kVerticesPerShortBridge = 6;
+constexpr uint32_t kLeastBridges = 5, kMostBridges = 12;
+/// Vertices beyond which the chart of one loop is too dear, and the solution of two loops over triangles
+/// from several charts.
+constexpr uint32_t kMostVertices = 4000, kMostOfTwoLoops = 120;
+
+/// Appends the vertices of a loop from `start` once round and to `start` again, or all but that.
+void walk(const LoopSet& loops, const TriangleWeights& weights, uint32_t start, bool forward,
+          bool closed, Corners& corners) {
+  const uint32_t size = loops.size(loops.loopOf(start));
+  uint32_t v = start;
+  for (uint32_t step = 0; step < size; ++step) {
+    const uint32_t next = forward ? loops.next(v) : loops.previous(v);
+    PolygonChart::Corner corner{v, false, {}};
+    if (!weights.normals.empty()) {
+      const uint32_t edge = forward ? v : next;
+      const double* n = &weights.normals[3 * size_t(edge)];
+      const double largest = std::max({std::fabs(n[0]), std::fabs(n[1]), std::fabs(n[2])});
+      if (!std::isnan(n[0])) {
+        const Vec3 scaled{n[0] / largest, n[1] / largest, n[2] / largest};
+        corner.hasFace = true;
+        corner.normal = ((forward ? 1 : -1) / length(scaled)) * scaled;
+      }
+    }
+    corners.push_back(corner);
+    v = next;
+  }
+  if (closed) corners.push_back({start, false, {}});
+}
+
+struct Bridge {
+  uint32_t a, b;
+  bool forward;  // of the second loop
+};
+
+Corners joined(const LoopSet& loops, const TriangleWeights& weights, const Bridge& bridge) {
+  Corners corners;
+  walk(loops, weights, bridge.a, true, true, corners);
+  walk(loops, weights, bridge.b, bridge.forward, true, corners);
+  return corners;
+}
+
+void append(const Corners& corners, const std::vector<PolygonChart::Triangle>& found,
+            std::vector<uint32_t>& triples) {
+  for (const PolygonChart::Triangle& t : found)
+    for (const uint32_t c : t.corner) triples.push_back(corners[c].vertex);
+}
+
+/// What one bridge gave.
+struct Trial {
+  bool isValid;
+  double cost;
+  std::vector<uint32_t> triples;
+};
+
+/// Two loops as one polygon, for one bridge after the other.
+class BridgeSearch {
+ public:
+  BridgeSearch(const LoopSet& loops, const TriangleWeights& weights, Work& work)
+      : loops_(loops), weights_(weights), chart_(loops, weights, work) {}
+
+  /// Tries bridges of a surface, or if there is none, short ones. Appends what they give.
+  bool run(ArrayView<const uint32_t> surface, std::vector<uint32_t>& triples);
+
+ private:
+  bool attempt(const Bridge& bridge);
+  bool attemptShort();
+  bool attemptThose(ArrayView<const uint32_t> surface);
+  bool isValid(const Corners& corners, const std::vector<PolygonChart::Triangle>& surface);
+  double angleAtBridge(const Corners& corners,
+                       const std::vector<PolygonChart::Triangle>& surface) const;
+  uint32_t nearestOf(uint32_t vertex, uint32_t loop) const;
+
+  const LoopSet& loops_;
+  const TriangleWeights& weights_;
+  PolygonChart chart_;
+  std::vector<Trial> trials_;
+  std::vector<std::pair<uint32_t, uint32_t>> edges_;  // scratch
+};
+
+uint32_t BridgeSearch::nearestOf(uint32_t vertex, uint32_t loop) const {
+  uint32_t best = loops_.first(loop);
+  for (uint32_t v = best; v < loops_.first(loop) + loops_.size(loop); ++v)
+    if (distance(loops_.position(v), loops_.position(vertex)) <
+        distance(loops_.position(best), loops_.position(vertex)))
+      best = v;
+  return best;
+}
+
+/// Whether each loop edge has one of the triangles, and every other edge of theirs two.
+bool BridgeSearch::isValid(const Corners& corners,
+                           const std::vector<PolygonChart::Triangle>& surface) {
+  edges_.clear();
+  for (const PolygonChart::Triangle& t : surface)
+    for (int i = 0; i < 3; ++i) {
+      const uint32_t a = corners[t.corner[i]].vertex, b = corners[t.corner[(i + 1) % 3]].vertex;
+      edges_.push_back({std::min(a, b), std::max(a, b)});
+    }
+  std::sort(edges_.begin(), edges_.end());
+  for (size_t i = 0; i < edges_.size();) {
+    size_t end = i + 1;
+    while (end < edges_.size() && edges_[end] == edges_[i]) ++end;
+    if (end - i != (loops_.isLoopEdge(edges_[i].first, edges_[i].second) ? 1u : 2u)) return false;
+    i = end;
+  }
+  return true;
+}
+
+/// The angle at the bridge, where the polygon was cut.
+double BridgeSearch::angleAtBridge(const Corners& corners,
+                                   const std::vector<PolygonChart::Triangle>& surface) const {
+  const uint32_t cut = loops_.size(0);  // the bridge is from there to the next corner
+  const auto normalOf = [&](const PolygonChart::Triangle& t) {
+    const Vec3 p = loops_.position(corners[t.corner[0]].vertex);
+    return cross(loops_.position(corners[t.corner[1]].vertex) - p,
+                 loops_.position(corners[t.corner[2]].vertex) - p);
+  };
+  for (const PolygonChart::Triangle& t : surface)
+    for (int i = 0; i < 2; ++i)
+      if (t.corner[i] == cut && t.corner[i + 1] == cut + 1)
+        return weights_.dihedral * angleBetween(normalOf(t), normalOf(surface[0]));
+  return 0;
+}
+
+bool BridgeSearch::attempt(const Bridge& bridge) {
+  const Corners corners = joined(loops_, weights_, bridge);
+  if (!chart_.compute(corners)) return false;
+  Trial trial{false, chart_.best(), {}};
+  if (trial.cost == kInfinity) return true;
+  std::vector<PolygonChart::Triangle> found;
+  chart_.trace(found);
+  trial.isValid = isValid(corners, found);
+  trial.cost += angleAtBridge(corners, found);
+  chart_.nearBest(kDearerWithBridge * chart_.best(), kPerVertexAndBridge * corners.size(), found);
+  append(corners, found, trial.triples);
+  trials_.push_back(std::move(trial));
+  return true;
+}
+
+/// From some vertices of the first loop to the nearest of the second.
+bool BridgeSearch::attemptShort() {
+  const uint32_t count =
+      std::clamp(loops_.vertexCount() / kVerticesPerShortBridge, kLeastBridges, kMostBridges);
+  for (uint32_t q = 0; q < count; ++q) {
+    const uint32_t a = loops_.first(0) + uint32_t(uint64_t(q) * loops_.size(0) / count);
+    const uint32_t b = nearestOf(a, 1);
+    for (const bool forward : {false, true})
+      if (!attempt({a, b, forward})) return false;
+  }
+  return true;
+}
+
+bool BridgeSearch::attemptThose(ArrayView<const uint32_t> surface) {
+  // Whether the triangles pass the loops' edges from each vertex to the next.
+  bool isForward[2] = {};
+  std::vector<std::pair<uint32_t, uint32_t>> bridges;
+  for (size_t i = 0; i < surface.size(); ++i) {
+    const uint32_t u = surface[i], v = surface[i % 3 == 2 ? i - 2 : i + 1];
+    if (loops_.next(u) == v && loops_.next(v) != u) isForward[loops_.loopOf(u)] = true;
+    if (loops_.loopOf(u) < loops_.loopOf(v)) bridges.push_back({u, v});
+  }
+  // In the order in which they follow each other around.
+  std::sort(bridges.begin(), bridges.end());
+  bridges.erase(std::unique(bridges.begin(), bridges.end()), bridges.end());
+  const size_t count = std::min<size_t>(
+      bridges.size(),
+      std::clamp(loops_.vertexCount() / kVerticesPerBridge, kLeastBridges, kMostBridges));
+  for (size_t q = 0; q < count; ++q) {
+    const auto& [a, b] = bridges[q * bridges.size() / count];
+    if (!attempt({a, b, isForward[0] == isForward[1]})) return false;
+  }
+  return true;
+}
+
+bool BridgeSearch::run(ArrayView<const uint32_t> surface, std::vector<uint32_t>& triples) {
+  if (!(surface.empty() ? attemptShort() : attemptThose(surface))) return false;
+  const auto use = [&] {
+    for (size_t q = 0; q < std::min(kTaken, trials_.size()); ++q)
+      triples.insert(triples.end(), trials_[q].triples.begin(), trials_[q].triples.end());
+  };
+  const auto byCost = [](const Trial& a, const Trial& b) { return a.cost < b.cost; };
+  std::stable_sort(trials_.begin(), trials_.end(), byCost);
+  use();
+  std::stable_partition(trials_.begin(), trials_.end(), [](const Trial& t) { return t.isValid; });
+  use();
+  return true;
+}
+
+}  // namespace
+
+bool hasNearOptimalTriples(const LoopSet& loops, const Work& work) {
+  const uint32_t n = loops.vertexCount() + 2;
+  if (loops.loopCount() > 2 || n > (loops.loopCount() == 1 ? kMostVertices : kMostOfTwoLoops))
+    return false;
+  return work.fits(PolygonChart::bytesFor(n));
+}
+
+bool nearOptimalTriples(const LoopSet& loops, const TriangleWeights& weights,
+                        ArrayView<const uint32_t> surface, Work& work,
+                        std::vector<uint32_t>& triples) {
+  if (loops.loopCount() == 2) return BridgeSearch(loops, weights, work).run(surface, triples);
+  Corners corners;
+  walk(loops, weights, 0, true, false, corners);
+  PolygonChart chart(loops, weights, work);
+  if (!chart.compute(corners)) return false;
+  std::vector<PolygonChart::Triangle> found;
+  chart.nearBest(kDearer * chart.best(), kPerVertex * corners.size(), found);
+  append(corners, found, triples);
+  return true;
+}
+
+}  // namespace sf

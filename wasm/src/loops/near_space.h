@@ -1,0 +1,36 @@
+// The `near` space: triangles of surfaces that are near the optimum, as far as a cheap look tells.
+// Source: the question of Zou, Ju, Carr 2013, sec. 6, for a space between the Delaunay facets and all
+// triples.
+// Differs: nearness of vertices turned out to be a poor guide. On noisy loops the optimum over triples
+// of nearest neighbours costs 1.2 times the one over all triples, since noise is flattened best by
+// long triangles in the right directions. So the triples are taken from a truncated solution
+// over all of them (polygon_chart.h): one loop is a polygon already, two are joined to one by a
+// bridge, walked along one loop, across, along the other in either direction and back, for many
+// bridges in turn. The Delaunay facets are candidates as well, so that near never costs more than
+// the facets of the loops' own vertices do.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "base/work.h"
+#include "loops/candidate_set.h"
+#include "loops/loop_set.h"
+
+namespace sf {
+
+/// Whether nearOptimalTriples applies: one loop of thousands of vertices, or two of a hundred together,
+/// that fit into memory.
+bool hasNearOptimalTriples(const LoopSet& loops, const Work& work);
+
+/// Appends triples of surfaces near the best one found: at most twelve for each vertex of one loop, six
+/// for each vertex and bridge of two. In any order, perhaps collinear or repeated, as facetTriples
+/// takes them. False when the work ended.
+///   weights  without own weights
+///   surface  [3m] of two loops, wound alike: the bridges tried are some of its edges. Empty: none is
+///            known, the bridges are short. Not read for one loop.
+/// O(n^2) segments of a polygon, each about half a microsecond; up to 24 such polygons for two loops.
+bool nearOptimalTriples(const LoopSet& loops, const TriangleWeights& weights,
+                        ArrayView<const uint32_t> surface, Work& work,
+                        std::vector<uint32_t>& triples);
+
+}  // namespace sf

@@ -1,0 +1,105 @@
+// The cheap splits of every segment of one polygon: where near-optimal surfaces are looked for.
+// Source: eq. 2 of Zou, Ju, Carr 2013, sec. 3.1, truncated: of the triangles that may stand across a
+// segment only the few cheapest are kept, in place of all of them.
+// Differs: eq. 2 wants the best inner triangle for each outer one. Dihedral angles are distances on
+// the sphere of normals, so a triangle whose cost exceeds that of another by at least the angle
+// between the two is never wanted; of the others the cheapest are nearly always enough. The price is
+// single precision, a handful of triangles tried for each of n^2 / 2 segments, and no proof.
+#pragma once
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/charge.h"
+#include "base/work.h"
+#include "loops/candidate_set.h"
+
+namespace sf {
+
+class PolygonChart {
+ public:
+  /// A closed polygon over vertices of the loops, which may come up more than once in it.
+  struct Corner {
+    uint32_t vertex;
+    bool hasFace;  // a face is given across the edge to the next corner,
+    Vec3 normal;   // with this unit normal, for the polygon's direction
+  };
+
+  /// Triangles: their vertices in the order of the polygon, and how much the surface that holds them
+  /// costs beyond the best one, as far as the chart knows.
+  struct Triangle {
+    float excess;
+    uint32_t corner[3];  // increasing
+  };
+
+  /// weights: without own weights; `normals` is not read.
+  PolygonChart(const LoopSet& loops, const TriangleWeights& weights, Work& work);
+
+  /// Fills the chart. False when the work ended. O(n^2) segments, each O(n) steps of a fraction of a
+  /// nanosecond and some ten triangles; of long polygons only O(n log n) segments are kept.
+  bool compute(std::vector<Corner> corners);
+
+  /// The cost of the best surface in the chart; infinity if there is none. About: single precision.
+  double best() const { return best_; }
+  /// The best surface: appends n - 2 triangles with excess 0. The first is at the edge that closes the
+  /// polygon, the last corner with the first. Precondition: best() is finite.
+  void trace(std::vector<Triangle>& triangles) const;
+  /// Up to `most` triangles of excess up to `excess`, the least ones.
+  void nearBest(double excess, size_t most, std::vector<Triangle>& triangles);
+
+  /// Bytes that a polygon of n corners takes.
+  static double bytesFor(double n);
+
+ private:
+  static constexpr uint32_t kSplits = 4;
+  using Float4 = float __attribute__((vector_size(16)));
+  /// Splits of a segment, by increasing cost, with the unit normals of their triangles.
+  struct Splits {
+    Float4 cost;  // infinity: none
+    Float4 x, y, z;
+  };
+  struct Segment {
+    uint32_t first, last;
+    uint32_t apex[kSplits];
+  };
+  using Ranked = std::pair<float, uint32_t>;
+  struct Normal {
+    float x, y, z;
+  };
+
+  static Splits noSplits();
+  size_t at(uint32_t first, uint32_t last) const { return size_t(last) * (last - 1) / 2 + first; }
+  Float4 anglesTo(const Splits& splits, Normal normal) const;
+  float reach(const Splits& splits, Normal normal) const;
+  void weigh(uint32_t first, uint32_t last, const uint32_t apex[4], Float4& cost,
+             Normal normal[4]) const;
+  void insert(Splits& splits, Segment& segment, float cost, Normal normal, uint32_t apex) const;
+  float boundApexes(uint32_t first, uint32_t last);
+  void trySplits(float more, float most, float slack, Splits& splits, Segment& segment);
+  bool split(uint32_t first, uint32_t last, Splits& splits, Segment& segment);
+  void keep(const Splits& splits, const Segment& segment);
+  bool computeLength(uint32_t length);
+  void addEdges();
+  void weighRoot();
+
+  const LoopSet& loops_;
+  float areaWeight_, perimeterWeight_, angleWeight_;
+  Work& work_;
+  Charge memory_;
+  uint64_t charged_ = 0;
+  std::vector<Corner> corners_;
+  std::vector<Vec3> positions_;
+  uint32_t n_ = 0;
+  double best_ = 0;
+  std::vector<Splits> splits_;  // by segment
+  std::vector<Segment> segments_;
+  std::vector<float> cost_;       // [n^2] by first and last, and by last and first
+  std::vector<uint32_t> number_;  // by at(first, last), where the cost is finite
+  float gap_ = 0;                 // how far above the least bound splits are tried first
+  float gapSum_ = 0;              // of the segments of one length: cost beyond the least bound
+  std::vector<float> bound_;      // scratch
+  std::vector<uint32_t> apexes_;  // scratch
+  std::vector<Ranked> ranked_;    // scratch: by bound, first corners
+};
+
+}  // namespace sf
