@@ -53,6 +53,11 @@ struct CandidateSet {
   uint32_t slotOpposite(uint32_t t, uint32_t v) const {
     return triangleSlots[3 * size_t(t) + corner(t, v)];
   }
+  /// The slot of triangle t at an edge, which must be one of its three.
+  uint32_t slotAt(uint32_t t, uint32_t edge) const {
+    const uint32_t* e = &triangleEdges[3 * size_t(t)];
+    return triangleSlots[3 * size_t(t) + (e[0] == edge ? 0 : e[1] == edge ? 1 : 2)];
+  }
   /// Bytes that a set of c triangles takes, building included.
   static double bytesFor(double c) { return 148 * c; }
 };

@@ -4,15 +4,7 @@
 #include <utility>
 
 namespace sf {
-namespace {
-
-uint32_t apexOf(const CandidateSet& set, uint32_t t, uint32_t edge) {
-  const uint32_t* v = &set.triangles[3 * size_t(t)];
-  return v[0] + v[1] + v[2] - set.edgeVertices[2 * size_t(edge)] -
-         set.edgeVertices[2 * size_t(edge) + 1];
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void traceSegment(const Pass& pass, ClosedSegment segment, uint32_t accessSlot, SplitOrder& order) {
   struct Open {
@@ -28,8 +20,7 @@ void traceSegment(const Pass& pass, ClosedSegment segment, uint32_t accessSlot, 
     order.push_back(t);
     ClosedSegment part[2];
     pass.segments.parts(queue[i].segment, slot, part);
-    for (const ClosedSegment& p : part)
-      queue.push_back({p, pass.set.slotOpposite(t, apexOf(pass.set, t, p.edge))});
+    for (const ClosedSegment& p : part) queue.push_back({p, pass.set.slotAt(t, p.edge)});
   }
 }
 
@@ -100,7 +91,7 @@ double ExactSolver::emptyPairCost(const SplitPart& part, uint32_t t,
   const uint32_t other = triangles[1 + part.firstInherited] - 1;
   if (other == t) return kInfinity;
   const uint32_t edge = pass_.set.edgeOpposite(t, part.apexOpposite);
-  const uint32_t otherSlot = pass_.set.slotOpposite(other, apexOf(pass_.set, other, edge));
+  const uint32_t otherSlot = pass_.set.slotAt(other, edge);
   return pass_.measure.pair(pass_.set.slotTheta[pass_.set.slotOpposite(t, part.apexOpposite)],
                             pass_.set.slotTheta[otherSlot]);
 }
@@ -120,7 +111,7 @@ double ExactSolver::bound(const Split& split, uint32_t slot, ArrayView<const uin
   if (triangles[0]) {
     const uint32_t access = triangles[0] - 1;
     const uint32_t edge = pass_.set.edgeOpposite(t, pass_.set.slotApex[slot]);
-    const uint32_t accessSlot = pass_.set.slotOpposite(access, apexOf(pass_.set, access, edge));
+    const uint32_t accessSlot = pass_.set.slotAt(access, edge);
     cost = measure.join(cost,
                         measure.pair(pass_.set.slotTheta[slot], pass_.set.slotTheta[accessSlot]));
   }
@@ -254,7 +245,7 @@ void ExactSolver::combine(Frame& frame, const Candidate& candidate) {
   double base = pass_.triangleCost[t];
   if (triangles[0]) {
     const uint32_t other = triangles[0] - 1;
-    const uint32_t otherSlot = pass_.set.slotOpposite(other, apexOf(pass_.set, other, access));
+    const uint32_t otherSlot = pass_.set.slotAt(other, access);
     base = measure.join(
         base, measure.pair(pass_.set.slotTheta[candidate.slot], pass_.set.slotTheta[otherSlot]));
   }
@@ -366,8 +357,7 @@ void ExactSolver::trace(SplitOrder& order) const {
     ClosedSegment part[2];
     pass_.segments.parts(segment, slot, part);
     for (const ClosedSegment& p : part)
-      queue.push_back(
-          {PartKind::Segment, pass_.set.slotOpposite(t, apexOf(pass_.set, t, p.edge)), p.side});
+      queue.push_back({PartKind::Segment, pass_.set.slotAt(t, p.edge), p.side});
   }
 }
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "base/charge.h"
-#include "loops/direct_solver.h"
+#include "loops/bridge_cut.h"
 
 namespace sf {
 
@@ -66,22 +66,6 @@ class SurfaceSearch {
  private:
   static constexpr uint32_t kMostIdle = 200;
 
-  /// Loops with repeated vertices, which a cut along bridges leaves.
-  struct Cut {
-    std::vector<uint32_t> origin;   // [N] vertex at each position
-    std::vector<uint32_t> across;   // [N] slot across the side from each position to the next, the
-                                    // triangle that stands there now; kNone: none is known
-    std::vector<uint32_t> starts;   // [j+1] of the loops that are left
-    std::vector<uint32_t> bridges;  // edges that were cut
-    void clear();
-  };
-  /// An edge of the best surface with one of its triangles.
-  struct Use {
-    uint32_t edge, triangle;
-    bool operator<(const Use& u) const {
-      return edge < u.edge || (edge == u.edge && triangle < u.triangle);
-    }
-  };
   struct Bridge {
     double key;
     uint32_t edge;
@@ -90,14 +74,18 @@ class SurfaceSearch {
 
   double random();
   void keepNear();
+  /// What the triangles cost together; false, with the edges at fault, if they are no surface.
   bool measureSurface(const SplitOrder& order, double& cost, std::vector<uint32_t>& badEdges) const;
-  /// A cut along random bridges of the candidates, which need not be in any surface.
-  void cutAtRandom(Cut& cut, const std::vector<uint32_t>& preferred);
+  /// Edges that make the loops a tree, or `trees` trees, the earlier in the list the rather. Empty if
+  /// they do not suffice. Increasing.
+  std::vector<uint32_t> chooseBridges(std::vector<Bridge>& byKey, uint32_t trees) const;
+  /// A cut along random bridges, which need not be in any surface.
+  ///   preferred  edges to be taken first, increasing
+  BridgeCut cutAtRandom(const std::vector<uint32_t>& preferred);
+  void joinLoop(std::vector<uint32_t>& polygon, uint32_t at, uint32_t v);
   /// A cut of the best surface that leaves `loops` loops.
-  void cutBest(uint32_t loops, Cut& cut);
-  uint32_t mate(uint32_t edge, uint32_t triangle) const;
-  bool solveCut(const Cut& cut, uint64_t maxSplits);
-  double costInCut(const Cut& cut, const LoopSet& loops, uint32_t t, const uint32_t place[3]) const;
+  BridgeCut cutBest(uint32_t loops);
+  bool solveCut(const BridgeCut& cut, uint64_t maxSplits);
   void lookAtBest();
 
   const Task& task_;
@@ -106,9 +94,8 @@ class SurfaceSearch {
   std::vector<uint32_t> kept_;     // triangles that are looked at
   std::vector<Bridge> bridges_;    // edges between loops
   std::vector<double> leastPair_;  // [slots]
-  std::vector<uint8_t> isBridge_;  // [e] of the cut at work
   double costOfUses_ = kInfinity;  // of the surface that uses_ is of
-  std::vector<Use> uses_;          // edges of the best surface, sorted
+  std::vector<EdgeUse> uses_;      // edges of the best surface
   uint64_t seed_ = 1;
   uint32_t idle_ = 0;
 };
