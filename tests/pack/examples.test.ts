@@ -26,6 +26,7 @@ describe('examples', () => {
       '03-weights.mjs',
       '04-candidates.mjs',
       '05-worker.mjs',
+      '06-extrude.mjs',
     ]);
   });
 
@@ -79,5 +80,27 @@ describe('examples', () => {
       'cancelled: cancelled',
       'afterwards: 198 triangles, progress reported true',
     ]);
+  });
+
+  test('06-extrude: a closed solid of the plate’s volume, an error named, another polygon repaired', async () => {
+    const [solid, error, repaired] = (await run('06-extrude.mjs', 'plate.obj')).trim().split('\n');
+    // n + 2 holes - 2 triangles a cap and two a wall.
+    const n = 6 + 32 + 16 + 8;
+    expect(solid).toContain(`${2 * (n + 6 - 2) + 2 * n} triangles`);
+    const disc = (radius: number, count: number): number =>
+      (count / 2) * radius ** 2 * Math.sin((2 * Math.PI) / count);
+    const area = 8 * 4 - 2 - disc(1, 32) - disc(0.5, 16) - disc(0.25, 8);
+    expect(decimals(solid)[0]).toBeCloseTo(0.5 * area, 3);
+    expect(error).toBe('hole-outside: ring 1 and ring 0');
+    expect(repaired).toMatch(/^repaired: \d+ triangles, 2 points added$/);
+    const file = await readFile(path.join(consumer.folder, 'plate.obj'), 'utf8');
+    const edges = new Set<string>();
+    for (const [, ...corners] of file.matchAll(/^f (\d+) (\d+) (\d+)$/gm)) {
+      corners.forEach((from, k) => {
+        const to = corners[(k + 1) % 3];
+        if (!edges.delete(`${to} ${from}`)) edges.add(`${from} ${to}`);
+      });
+    }
+    expect(edges.size).toBe(0);
   });
 });

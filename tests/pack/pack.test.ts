@@ -48,8 +48,12 @@ describe('the tarball', () => {
     const dist = path.join(consumer.folder, 'node_modules/soapfilm/wasm/dist');
     const core = gzipSync(await readFile(path.join(dist, 'core.wasm'))).length;
     expect(core).toBeLessThanOrEqual(150 * 1024);
+    // Reading and writing files comes on top, for those who use it.
+    const index = await readFile(path.join(dist, 'index.js'), 'utf8');
+    const contents = index.replace(/^.*formats\.js.*$/m, '');
+    expect(contents).not.toBe(index);
     const { outputFiles } = await build({
-      entryPoints: [path.join(dist, 'index.js')],
+      stdin: { contents, resolveDir: dist },
       bundle: true,
       minify: true,
       format: 'esm',
@@ -57,6 +61,20 @@ describe('the tarball', () => {
       external: ['*_inline.js'],
     });
     expect(gzipSync(outputFiles[0].contents).length).toBeLessThanOrEqual(8 * 1024);
+  });
+
+  test('one feature alone: brings nothing of the others', async () => {
+    const dist = path.join(consumer.folder, 'node_modules/soapfilm/wasm/dist');
+    const { outputFiles } = await build({
+      stdin: { contents: "export { load, triangulatePolygon } from './index.js';", resolveDir: dist },
+      bundle: true,
+      minify: true,
+      format: 'esm',
+      write: false,
+      external: ['*_inline.js'],
+    });
+    expect(outputFiles[0].text).not.toMatch(/sf_span_loops|sf_session|GeometryCollection|\.curve/);
+    expect(outputFiles[0].text).toContain('sf_triangulate_polygons');
   });
 });
 
@@ -67,6 +85,20 @@ describe('in Node', () => {
       const span = spanLoops(loops);
       console.log(span.triangles.length / 3);`;
     expect((await consumer.run('span.mjs', source)).trim()).toBe(kTriangles);
+  });
+
+  test('triangulatePolygon: triangulates a polygon with a hole, here and in the worker', async () => {
+    const source = `import { load, triangulatePolygon, PolygonSession } from 'soapfilm';
+      import { createWorker } from 'soapfilm/worker';
+      await load();
+      const polygon = [[[0, 0], [9, 0], [9, 9], [0, 9]], [[2, 2], [4, 2], [3, 4]]];
+      const film = await createWorker();
+      const there = await film.triangulatePolygon(polygon, { quality: 'delaunay' });
+      film.dispose();
+      const session = new PolygonSession(polygon);
+      console.log(triangulatePolygon(polygon).triangles.length / 3, there.triangles.length / 3,
+        session.insertPoint([6, 6]).triangleCount);`;
+    expect((await consumer.run('polygon.mjs', source)).trim()).toBe('7 7 9');
   });
 
   test('the worker: spans two loops and lets the process end', async () => {
@@ -100,7 +132,10 @@ describe('in Node', () => {
 describe('in TypeScript', () => {
   test.each(['bundler', 'nodenext'])('%s: a strict program compiles against the types', async (resolution) => {
     const source = `
-      import { load, spanLoops, SoapfilmError, type LoopSet, type SpanOptions } from 'soapfilm';
+      import {
+        load, PolygonSession, spanLoops, SoapfilmError, triangulateGeoJSON, triangulatePolygon, triangulatePolygons,
+        type LoopSet, type PolygonOptions, type PolygonTriangulation, type SpanOptions,
+      } from 'soapfilm';
       import { createWorker } from 'soapfilm/worker';
       const loops: LoopSet = { positions: new Float64Array(9), starts: Uint32Array.of(0, 3) };
       const options: SpanOptions = { weights: { area: 1 }, onProgress: (fraction) => fraction + 1 };
@@ -111,6 +146,13 @@ describe('in TypeScript', () => {
         const film = await createWorker();
         const again = await film.spanLoops([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], { signal: AbortSignal.timeout(count) });
         if (again.found) again.positions.fill(0);
+        const polygon: PolygonTriangulation = await film.triangulatePolygon([[[0, 0], [1, 0], [0, 1]]]);
+        const plain: PolygonOptions = { method: 'trapezoids', output: 'strips', repair: 'even-odd' };
+        const { triangles } = triangulatePolygon({ coordinates: [0, 0, 1, 0, 0, 1] }, plain);
+        const { errors } = triangulatePolygons([[[[0, 0], [1, 0], [0, 1]]]], { skipInvalid: true });
+        const { featureStarts } = triangulateGeoJSON({ type: 'Polygon', coordinates: [] } as { type: string });
+        using session = new PolygonSession([[[0, 0], [1, 0], [0, 1]]]);
+        session.move(0, [polygon.triangles.length, triangles.length + errors.length + featureStarts.length]);
         film.dispose();
       } catch (error) {
         if (error instanceof SoapfilmError && error.code === 'bad-loops') throw error;

@@ -96,6 +96,7 @@ sf::Outcome Call::runBatch() {
   const sf::PolygonBatch batch{positions_, ringStarts_, polygonStarts_};
   const sf::Outcome outcome = triangulator_.triangulateBatch(batch, options_, work_, all_);
   if (!outcome.ok()) return outcome;
+  stripGroups_.assign(polygonStarts_.size(), 0);
   for (const sf::PolygonFault& fault : all_.faults)
     blame(fault.polygon, fault.outcome, viewOf(fault.polygon));
   return {};
