@@ -20,10 +20,11 @@ struct Certificate {
   std::vector<uint32_t> complement;  // [3s] triangles of the frame without the polygon
 };
 
-/// Whether the triangles prove by themselves that the polygon is valid and that they cover it: all
-/// numbers are finite, no triangle is turned over, by exact orient2d, and the sums of the triangles'
+/// Whether the triangles prove by themselves that the rings wind 0 or 1 times around every point off
+/// them, and that they cover the points of 1 once and no others: all numbers are finite, no triangle is turned over, by exact orient2d, and the sums of the triangles'
 /// boundaries are that of the rings inside, and the frame less the rings outside. O(m + t + s) time
 /// and memory, charged to `work`; false too once `work` is to end.
+/// What has no area does not count: spikes, and edges that run to and fro, are the sweep's to find.
 bool certify(const Certificate& certificate, Work& work);
 
 }  // namespace sf
