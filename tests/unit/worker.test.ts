@@ -5,7 +5,17 @@ import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { promisify } from 'node:util';
-import { load, spanLoops, type NoSpan, type Point, type Span } from 'soapfilm';
+import {
+  load,
+  SoapfilmError,
+  spanLoops,
+  triangulateGeoJSON,
+  triangulatePolygon,
+  triangulatePolygons,
+  type NoSpan,
+  type Point,
+  type Span,
+} from 'soapfilm';
 import { createWorker, type Film } from 'soapfilm/worker';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { rejectionOf } from '../support/errors.js';
@@ -81,6 +91,51 @@ describe('spanLoops', () => {
     const options = { candidates: 'all', maxSeconds: 0.3 } as const;
     expect((await rejectionOf(film.spanLoops(kMuch, options))).code).toBe('time-limit');
     expect((await film.spanLoops(kRings)).found).toBe(true);
+  });
+});
+
+describe('polygons', () => {
+  const square = (x: number, size: number): number[][] => [
+    [x, x],
+    [x + size, x],
+    [x + size, x + size],
+    [x, x + size],
+  ];
+  const good = [square(0, 9), square(2, 3)];
+  const bowTie = [[[0, 0], [2, 2], [2, 0], [0, 2]]];
+
+  test('triangulatePolygon: the same result as at once, in arrays of its own', async () => {
+    for (const options of [{}, { trace: true, borrow: true }, { output: 'strips', quality: 'delaunay' } as const]) {
+      const there = await film.triangulatePolygon(good, options);
+      expect(there).toEqual(triangulatePolygon(good, { ...options, borrow: false }));
+      expect(there.triangles.byteLength).toBe(there.triangles.buffer.byteLength);
+    }
+    const flat = { positions: Float64Array.from(good.flat(2)), starts: Uint32Array.of(0, 4, 8) };
+    expect(await film.triangulatePolygon(flat)).toEqual(triangulatePolygon(good));
+    // Input is copied, not taken away.
+    expect(flat.positions.length).toBe(16);
+  });
+
+  test('triangulatePolygons, triangulateGeoJSON: the same, their errors still errors', async () => {
+    const polygons = [good, bowTie, good];
+    const options = { skipInvalid: true };
+    const there = await film.triangulatePolygons(polygons, options);
+    expect(there).toEqual(triangulatePolygons(polygons, options));
+    expect(there.errors[0]).toBeInstanceOf(SoapfilmError);
+    expect(there.errors[0]).toMatchObject({ code: 'self-intersecting', polygon: 1, loop: 0, point: [1, 1] });
+    const geojson = { type: 'MultiPolygon', coordinates: polygons };
+    const found = await film.triangulateGeoJSON(geojson, options);
+    expect(found).toEqual(triangulateGeoJSON(geojson, options));
+    expect(found.errors[0]).toBeInstanceOf(SoapfilmError);
+  });
+
+  test('an error: code, place and point as at once', async () => {
+    const error = await rejectionOf(film.triangulatePolygon(bowTie));
+    expect(error).toMatchObject({ code: 'self-intersecting', loop: 0, vertex: 0, otherVertex: 2, point: [1, 1] });
+    expect((await rejectionOf(film.triangulatePolygons([good, bowTie]))).polygon).toBe(1);
+    const signal = AbortSignal.abort();
+    expect((await rejectionOf(film.triangulatePolygon(good, { signal }))).code).toBe('cancelled');
+    expect((await film.triangulatePolygon(good)).triangles.length).toBe(24);
   });
 });
 
