@@ -122,7 +122,7 @@ async function measureCase(c) {
     return points ? takesPoints : n / polygons.length <= kEngines[name].most;
   });
   // Flooding first, so that the peak is its own.
-  const runs = names.map((name) => [name, kEngines[name].prepare(polygons, inner)]);
+  const runs = names.map((name) => [name, kEngines[name].prepare(polygons, inner, c.repairs)]);
   const found = race(runs, peak);
   return { n, polygons: polygons.length, ...found, ...(c.quality && { quality: qualities(polygons, points) }) };
 }

@@ -1,5 +1,6 @@
-// Triangulators of polygons behind one face: `prepare(polygons)` brings the input into the form that
-// the library takes, outside the clock; what it returns triangulates all of them.
+// Triangulators of polygons behind one face: `prepare(polygons, points, repairs)` brings the input into
+// the form that the library takes, outside the clock; what it returns triangulates all of them. The
+// others take invalid polygons as they come, and give something.
 import cdt2d from 'cdt2d';
 import Constrainautor from '@kninnug/constrainautor';
 import Delaunator from 'delaunator';
@@ -28,8 +29,9 @@ function toBatch(polygons) {
   };
 }
 
-const soapfilm = (options) => ({
-  prepare(polygons, points) {
+const soapfilm = (own) => ({
+  prepare(polygons, points, repairs) {
+    const options = repairs ? { ...own, repair: 'even-odd' } : own;
     const batch = toBatch(polygons);
     if (polygons.length > 1) return () => triangulatePolygons(batch, options).triangles;
     const polygon = { positions: batch.positions, starts: batch.ringStarts, ...(points && { points }) };
@@ -97,14 +99,14 @@ export const kEngines = {
   strips: { ...soapfilm({ method: 'trapezoids', output: 'strips' }), most: 1e5 },
   'one by one': {
     most: 0,
-    prepare: (polygons) =>
+    prepare: (polygons, points, repairs) =>
       each(
         polygons,
         (polygon) => {
           const { coordinates, holes } = toEarcut(polygon);
           return { coordinates, holeIndices: holes };
         },
-        (input) => triangulatePolygon(input).triangles,
+        (input) => triangulatePolygon(input, { repair: repairs ? 'even-odd' : 'none' }).triangles,
       ),
   },
   earcut: {
