@@ -127,3 +127,34 @@ TEST_CASE("anytime: beginning from an earlier surface changes the way, not the a
   CHECK(again.optimal);
   CHECK(again.cost == doctest::Approx(plain.cost).epsilon(1e-12));
 }
+
+TEST_CASE("anytime: one loop over all triples falls back to the near ones' surface") {
+  Random random(324);
+  MESSAGE("seed 324");
+  const LoopSet loops = loopSet({noisyCircle(300, 0.05, random)});
+  SpanOptions options;
+  options.space = Space::All;
+  options.areaWeight = 1;
+  Work unlimited;
+  Span best;
+  REQUIRE(spanLoops(loops, options, unlimited, best).ok());
+  options.bestSoFar = true;
+  Span whole;
+  REQUIRE(spanLoops(loops, options, unlimited, whole).ok());
+  CHECK(whole.optimal);
+  CHECK(whole.cost == doctest::Approx(best.cost).epsilon(1e-12));
+  // Memory for the near triples, and not for all of them.
+  Work tight(size_t(14) << 20, nullptr, nullptr);
+  Span span;
+  REQUIRE(spanLoops(loops, options, tight, span).ok());
+  REQUIRE(span.found);
+  CHECK(spanFault(loops, options, span) == "");
+  CHECK(!span.optimal);
+  CHECK(span.space == Space::All);
+  CHECK(span.cost >= best.cost * (1 - 1e-12));
+  CHECK(span.lowerBound > 0);
+  CHECK(span.lowerBound <= best.cost);
+  options.bestSoFar = false;
+  Work again(size_t(14) << 20, nullptr, nullptr);
+  CHECK(spanLoops(loops, options, again, span).status == Status::TooLarge);
+}

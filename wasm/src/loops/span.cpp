@@ -194,16 +194,55 @@ class Spanning {
   }
 
   Outcome runAll() {
+    if (loops_.loopCount() == 1) return runPolygon();
     partShare_ = 1;
     beginSpace(Space::All);
     if (!allTriplesFit()) return {Status::TooLarge};
-    if (loops_.loopCount() == 1) return runPolygon();
     std::vector<uint32_t> triples;
     if (!allTriples(unit_, work_, triples)) return {work_.status()};
     return solve(unchangedProblem(unit_, options_), std::move(triples), {});
   }
 
+  /// One loop over all triples. That has no surface before the optimum: where it takes long, the near
+  /// triples' is what bestSoFar falls back to.
   Outcome runPolygon() {
+    Span near;
+    if (options_.bestSoFar && predictedTimeOfAllTriples(loops_) > kPatience && runNear().ok()) {
+      result_.space = Space::All;
+      result_.optimal = false;
+      result_.lowerBound = std::min(boundOfLoopEdges(), result_.cost);
+      near = result_;
+      if (options_.onBest) options_.onBest(options_.user, result_);
+    }
+    partShare_ = 1;
+    beginSpace(Space::All);
+    const Outcome outcome = allTriplesFit() ? solveAllTriples() : Outcome{Status::TooLarge};
+    if (outcome.ok() || !near.found) return outcome;
+    result_ = std::move(near);
+    return {};
+  }
+
+  /// No surface over one loop costs less: each loop edge has a triangle, each triangle two of them at
+  /// most. O(n^2).
+  double boundOfLoopEdges() {
+    if (options_.objective == Objective::WorstDihedral) return 0;
+    const uint32_t n = unit_.vertexCount();
+    double sum = 0;
+    for (uint32_t v = 0; v < n; ++v) {
+      double least = kInfinity;
+      for (uint32_t i = 2; i < n; ++i) {
+        const Vec3 a = unit_.position(v), b = unit_.position((v + 1) % n),
+                   c = unit_.position((v + i) % n);
+        least = std::min(least,
+                         areaWeight_ * 0.5 * length(cross(b - a, c - a)) +
+                             perimeterWeight_ * (distance(a, b) + distance(b, c) + distance(c, a)));
+      }
+      sum += 0.5 * least;
+    }
+    return std::ldexp(sum, costExponent_);
+  }
+
+  Outcome solveAllTriples() {
     const Problem problem = unchangedProblem(unit_, options_);
     const TriangleWeights weights = triangleWeights(problem, {});
     PolygonSurface polygon;
@@ -281,18 +320,19 @@ class Spanning {
     if (options_.objective == Objective::WorstDihedral) weights.dihedral = 1;
     for (uint32_t round = 0;; ++round) {
       std::vector<uint32_t> triples;
+      Span last;
+      if (options_.bestSoFar) last = result_;
       const bool chosen = nearOptimalTriples(unit_, weights, result_.triangles, work_, list) &&
                           facetTriples(unit_, list, work_, triples);
       const double before = result_.cost;
-      const uint64_t candidates = result_.candidates;
       const Outcome outcome =
           chosen ? solve(problem, std::move(triples), {}) : Outcome{work_.status()};
-      if (!outcome.ok()) {
+      if (!work_.going() && last.found && !(outcome.ok() && result_.cost < last.cost)) {
         // What was optimal among fewer candidates stays.
-        if (round == 0 || !options_.bestSoFar) return outcome;
-        result_.candidates = candidates;
+        result_ = std::move(last);
         return {};
       }
+      if (!outcome.ok()) return outcome;
       const bool isBetter = round == 0 || result_.cost < before - 1e-9 * std::fabs(before);
       if (loops_.loopCount() == 1 || !isBetter || round == kNearRounds) return {};
       beginSpace(Space::Near);
@@ -363,8 +403,11 @@ class Spanning {
       surface.order = order;
       surface.optimal = false;
       spanning_.handBack(problem_, set_, surface, own_);
-      spanning_.options_.onBest(spanning_.options_.user, spanning_.result_);
-      spanning_.result_.found = false;
+      Span& best = spanning_.result_;
+      // Wider candidates begin anew, often with worse.
+      if (best.cost < spanning_.toldCost_) spanning_.options_.onBest(spanning_.options_.user, best);
+      spanning_.toldCost_ = std::min(spanning_.toldCost_, best.cost);
+      best.found = false;
     }
 
    private:
@@ -401,6 +444,7 @@ class Spanning {
   double areaWeight_ = 0, perimeterWeight_ = 0;  // per unit of unit_, times 2^-costExponent_
   double dihedralWeight_ = 0;                    // times 2^-costExponent_
   int costExponent_ = 0;
+  double toldCost_ = kInfinity;      // of the last surface that the caller has been told of
   double done_ = 0, partShare_ = 1;  // of the work: what past spaces took, what the next may
 };
 
