@@ -110,8 +110,11 @@ function figure8(shown) {
       logLog({ ...at(2), title: `${title}: domains, minimal sets`, format: count, series: counts }),
     ];
   };
+  const isCut = results.cases.some((c) => /^saddles \d/.test(c.series ?? '') && c.wasm?.problem);
+  const note = isCut ? 'lines end where larger sizes take more than 30 s' : '';
   return drawing(1000, 800, 'Several curves: saddles at the corners of an octahedron (figure 8)', [
     legend(20, 56, kLegend),
+    text(980, 28, note, 'e'),
     text(980, 56, 'right column: domains, minimal sets dotted', 'e'),
     ...shown.slice(1).flatMap((span, i) => {
       const x = 28 + 198 * i;
@@ -121,6 +124,14 @@ function figure8(shown) {
     ...row(272, 'All triples', listed('all', [2, 3])),
     ...row(535, 'Delaunay facets', listed('delaunay', [2, 3, 4, 5, 6])),
   ]);
+}
+
+/** At most twelve bins of a round width from below `low` to `high` or above. */
+function roundEdges(low, high) {
+  const width = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5].find((w) => (high - low) / w <= 11);
+  const first = Math.floor(low / width + 1e-9);
+  const last = Math.ceil(high / width - 1e-9);
+  return Array.from({ length: last - first + 1 }, (_, i) => (first + i) * width);
 }
 
 function figure9() {
@@ -133,13 +144,10 @@ function figure9() {
         .map((r) => optimality(r, space))
         .filter((v) => v !== null),
     }));
-  const even = (low, high, bins) =>
-    Array.from({ length: bins + 1 }, (_, i) => low + ((high - low) * i) / bins);
   const panel = (x, y, rows, kind, weight) => {
     const isArea = weight === 'area';
     const values = sets(rows, weight).flatMap((set) => set.values);
-    const low = Math.min(0.9, Math.floor(10 * Math.min(...values)) / 10);
-    const high = Math.max(2, 2 * Math.ceil(Math.max(...values) / 2));
+    const [low, high] = isArea ? [Math.min(0.9, ...values), 1] : [0, Math.max(2, ...values)];
     return histogram({
       x,
       y,
@@ -149,7 +157,7 @@ function figure9() {
       xLabel: isArea
         ? 'area of the optimum among all triples / area found'
         : 'degrees above the optimum, per interior edge',
-      edges: isArea ? even(low, 1, 10) : even(0, high, 10),
+      edges: roundEdges(low, high),
       format: (v) => String(Math.round(100 * v) / 100),
       sets: sets(rows, weight),
     });

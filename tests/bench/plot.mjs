@@ -19,13 +19,15 @@ const declare = (shade) =>
 const kStyle = `text{font:11px system-ui,-apple-system,"Segoe UI",sans-serif;fill:#3d4654}
 .t{font-size:15px;font-weight:600;fill:#161b22}
 .h{font-size:12px;font-weight:600;fill:#161b22}
+.n{font-weight:600;stroke:#fff;stroke-width:3;paint-order:stroke}
 .e{text-anchor:end}.m{text-anchor:middle}.s{font-size:8px}
 .bg{fill:#fff}.g{stroke:#e4e8ee;fill:none}.a{stroke:#aab3c0;fill:none}
 .l{fill:none;stroke-width:1.8}.d{fill:none;stroke-width:1.2;stroke-dasharray:2 3}
 .o{fill:none;stroke-width:1.3}.f{stroke:#2b4a6b;stroke-width:.5;stroke-linejoin:round}
 .r{stroke:#e2662c;stroke-width:1.8;stroke-linecap:round}${declare(0)}
 @media(prefers-color-scheme:dark){
-text{fill:#b3bcc8}.t,.h{fill:#eef2f7}.bg{fill:#12161c}.g{stroke:#272e38}.a{stroke:#5a6572}${declare(1)}}`;
+text{fill:#b3bcc8}.t,.h{fill:#eef2f7}.bg{fill:#12161c}.n{stroke:#12161c}
+.g{stroke:#272e38}.a{stroke:#5a6572}${declare(1)}}`;
 
 const one = (value) => String(Math.round(10 * value) / 10);
 const escaped = (text) => String(text).replace(/&/g, '&amp;').replace(/</g, '&lt;');
@@ -138,7 +140,7 @@ export function logLog({ x, y, width, height, title, xLabel, format, series }) {
 function endLabel({ x, y, ink, text: words, exponent }) {
   const raised = exponent === undefined ? '' : `<tspan class="s" dy="-4">${exponent.toFixed(1)}</tspan>`;
   const content = `${escaped(words)}${raised && `n${raised}`}`;
-  return `<text x="${one(x)}" y="${one(y)}" class="${ink}f" style="font-weight:600">${content}</text>`;
+  return `<text x="${one(x)}" y="${one(y)}" class="n ${ink}f">${content}</text>`;
 }
 
 /** A number of things: 2 000, 10k, 1M. */
@@ -180,7 +182,7 @@ export function histogram({ x, y, width, height, title, xLabel, edges, format, s
     });
   });
   edges.forEach((edge, i) => {
-    if (i % 2 === 0) parts.push(text(left + i * bin, bottom + 15, format(edge), 'm'));
+    if (bins <= 8 || i % 2 === 0) parts.push(text(left + i * bin, bottom + 15, format(edge), 'm'));
   });
   parts.push(path([[left, bottom], [right, bottom]], 'a'), text((left + right) / 2, bottom + 30, xLabel, 'm'));
   return parts.join('\n');

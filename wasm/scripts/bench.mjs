@@ -163,7 +163,7 @@ async function takePictures() {
     args: process.getuid?.() === 0 ? ['--no-sandbox'] : [],
   });
   try {
-    const page = await browser.newPage({ deviceScaleFactor: 2, colorScheme: 'light' });
+    const page = await browser.newPage({ deviceScaleFactor: 1.5, colorScheme: 'light' });
     for (const name of readdirSync(figures).filter((file) => file.endsWith('.svg'))) {
       const svg = readFileSync(path.join(figures, name), 'utf8');
       await page.setContent(`<body style="margin:0">${svg}</body>`);
