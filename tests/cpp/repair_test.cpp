@@ -324,6 +324,18 @@ TEST_CASE("repair: two crossing squares, by either rule") {
   CHECK(evenOdd.flat.addedOn == std::vector<uint32_t>{1, 4, 2, 7});
 }
 
+TEST_CASE("repair: a ring run twice adds nothing to an odd winding number, nor any point") {
+  const Ring square = {{0, 0}, {4, 0}, {4, 4}, {0, 4}}, across = {{2, 1}, {6, 1}, {6, 2}, {2, 2}};
+  const Polygon polygon = polygonOf({square, across, across});
+  const Repaired evenOdd = repaired(polygon, Repair::EvenOdd);
+  REQUIRE(evenOdd.polygons.size() == 1);
+  CHECK(areaOf(evenOdd.polygons) == 16);
+  CHECK(evenOdd.flat.added.empty());
+  CHECK(evenOdd.flat.vertices == std::vector<uint32_t>{0, 1, 2, 3});
+  // -1 where both are, -2 outside the square.
+  CHECK(areaOf(repaired(polygon, Repair::NonZero).polygons) == 18);
+}
+
 TEST_CASE("repair: limits of memory and stops end it, and nothing stays charged") {
   MESSAGE("seed 66");
   Random random(66);
