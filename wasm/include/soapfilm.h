@@ -62,10 +62,11 @@ SF_API(sf_result_free) void sf_result_free(SfResult* result);
 SF_API(sf_span_loops)
 SfStatus sf_span_loops(const double* positions, const uint32_t* starts, uint32_t loopCount,
                        const double* boundaryNormals, const uint32_t* triangles,
-                       uint32_t triangleCount, const double* triangleWeights,
-                       const uint32_t* start, uint32_t startCount, const double* settings, uint32_t* where, SfResult** result);
+                       uint32_t triangleCount, const double* triangleWeights, const uint32_t* start,
+                       uint32_t startCount, const double* settings, uint32_t* where,
+                       SfResult** result);
 
-/// Triangulates polygons with holes in the plane (Ronfard, Rossignac 1994; Kumar 2000).
+/// Triangulates polygons with holes in the plane (Ronfard, Rossignac 1994; Kumar).
 ///   positions      [dimension * n] vertices; in space, polygon by polygon near a plane
 ///   ringStarts     [ringCount + 1] in vertices, from 0, increasing
 ///   polygonStarts  [polygonCount + 1] in rings, from 0, increasing; the first ring of each polygon is
@@ -96,7 +97,7 @@ SfStatus sf_triangulate_polygons(const double* positions, const uint32_t* ringSt
                                  const double* settings, uint32_t* where, SfResult** result);
 
 /// Begins a session on one polygon of the plane, whose rings may not touch, and whose vertices are then
-/// inserted, deleted and moved: only the triangles around are made anew (Kumar 2000, sec. 5).
+/// inserted, deleted and moved: only the triangles around are made anew (Kumar, sec. 5).
 ///   points    [2 * pointCount] isolated vertices inside, numbered from n on
 ///   maxBytes  memory limit for the session and each of its calls
 ///   where     [4] out: as of sf_triangulate_polygons

@@ -34,6 +34,14 @@ bool isLarge(const LoopSet& loops, const CandidateSet& set) {
   return double(set.size()) > 24 * (double(loops.vertexCount()) + 2.0 * loops.loopCount() - 4);
 }
 
+bool isDense(const LoopSet& loops, const CandidateSet& set) {
+  if (loops.loopCount() != 2) return false;
+  size_t across = 0;
+  for (size_t e = 0; e < set.edgeVertices.size(); e += 2)
+    across += loops.loopOf(set.edgeVertices[e]) != loops.loopOf(set.edgeVertices[e + 1]);
+  return 4.0 * double(across) >= double(loops.size(0)) * loops.size(1);
+}
+
 bool solveDirectly(const Task& task, uint64_t maxSplits, double incumbent, Optimum& optimum,
                    SolverCounts& counts) {
   optimum = {};
@@ -68,7 +76,7 @@ bool solveDirectly(const Task& task, uint64_t maxSplits, double incumbent, Optim
       optimum.cost = kInfinity;
     return solved;
   };
-  if (loops.loopCount() == 2 && isLarge(loops, set)) {
+  if (isLarge(loops, set) && isDense(loops, set)) {
     TwoLoopBound bound(pass, root);
     const bool bounded = bound.compute();
     counts.domains += bound.domainCount();

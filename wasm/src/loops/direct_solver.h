@@ -46,8 +46,10 @@ constexpr uint64_t kUnlimited = ~uint64_t(0);
 bool solveDirectly(const Task& task, uint64_t maxSplits, double incumbent, Optimum& optimum,
                    SolverCounts& counts);
 
-/// Whether the candidates are many for the surface: dense arrays pay then, and fans do not, which
-/// have multipliers for each of them.
+/// Whether the candidates are many for the surface, so that whatever looks at each of them is slow.
 bool isLarge(const LoopSet& loops, const CandidateSet& set);
+
+/// Whether two loops have edges from one to the other nearly everywhere: bounds in dense arrays pay then.
+bool isDense(const LoopSet& loops, const CandidateSet& set);
 
 }  // namespace sf

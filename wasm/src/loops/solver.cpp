@@ -186,12 +186,13 @@ bool PassSolver::run(double from, double to) {
   Work& work = task_.work;
   const uint32_t k = loops.loopCount();
   const bool large = isLarge(loops, task_.set), worst = task_.measure.isWorst();
+  const bool dense = large && isDense(loops, task_.set);
   // Hubs make fans expensive: their labels may take what some times the candidates do.
   const double fanBytes = worst ? 0 : FanBound::bytesFor(loops, task_.set);
-  const bool direct = k == 1 || (k == 2 && large) || (worst && large) || !work.fits(fanBytes) ||
+  const bool direct = k == 1 || dense || (worst && large && k > 2) || !work.fits(fanBytes) ||
                       fanBytes > 40 * CandidateSet::bytesFor(double(task_.set.size()));
   // Domains are few where loops and candidates are.
-  const bool areFew = k <= 3 && !large && !worst;
+  const bool areFew = (k == 2 || (k == 3 && !large)) && !worst;
   const uint64_t splits = options_.firstSplits
                               ? options_.firstSplits
                               : loops.vertexCount() * (areFew ? kSplitsOfFew : kSplitsOfMany);
@@ -241,7 +242,8 @@ bool solveSurface(const LoopSet& loops, const CandidateSet& set, const SolveOpti
   if (!worstKnown || !surface.found) return worstKnown;
   const double cap = first.best().cost() + kAngleTie;
   std::vector<double> weight(set.size(), kInfinity);
-  if (loops.loopCount() > 1 && !isLarge(loops, set)) {
+  if (loops.loopCount() > 1 && !isDense(loops, set) &&
+      !(loops.loopCount() > 2 && isLarge(loops, set))) {
     std::vector<uint32_t> kept;
     if (!FanFilter(loops, set, angle, work).filter(cap, kept)) return false;
     for (const uint32_t t : kept) weight[t] = set.weight[t];
