@@ -289,10 +289,10 @@ const std::vector<Path>& solverPaths() {
       {"fans, all pairs", false, 1e-9, kAny, 3, isForFans, byFans},
       {"fans, transform", true, 1e-9, kAny, 6, isForFans, byFans},
       {"search, then domains", false, 1e-9, kAny, 6, hasSeveralLoops, bySearchFirst},
-      {"all edges after one round", false, 1e-9, 9, 1, hasSeveralLoops, passes<byOneLazyRound>},
-      {"all edges from the start", false, 1e-9, 9, 1, hasSeveralLoops,
+      {"all edges after one round", false, 1e-9, 9, 2, hasSeveralLoops, passes<byOneLazyRound>},
+      {"all edges from the start", false, 1e-9, 9, 2, hasSeveralLoops,
        passes<withAllEdgesCritical>},
-      {"domains alone", false, 1e-9, 8, 1, hasTwoLoops, passes<byDomainsAlone>},
+      {"domains alone", false, 1e-9, 8, 2, hasTwoLoops, passes<byDomainsAlone>},
       {"span", false, 1e-9, kAny, 1, isInput, bySpan},
   };
   return paths;
