@@ -44,10 +44,11 @@ describe('the tarball', () => {
     await executeTool('@arethetypeswrong/cli/dist/index.js', args, repository);
   });
 
-  test('size: core.wasm up to 150 KB and the scripts up to 8 KB, gzipped', async () => {
+  test('size: core.wasm up to 210 KB and the scripts up to 8 KB, gzipped', async () => {
     const dist = path.join(consumer.folder, 'node_modules/soapfilm/wasm/dist');
     const core = gzipSync(await readFile(path.join(dist, 'core.wasm'))).length;
-    expect(core).toBeLessThanOrEqual(150 * 1024);
+    // Made for size throughout it has 156 KB, and its kernels are up to twice as slow.
+    expect(core).toBeLessThanOrEqual(210 * 1024);
     // Reading and writing files comes on top, for those who use it.
     const index = await readFile(path.join(dist, 'index.js'), 'utf8');
     const contents = index.replace(/^.*formats\.js.*$/m, '');

@@ -218,7 +218,7 @@ describe('spanLoops', () => {
       candidates: 'all',
       onProgress: (...report) => seen.push(report),
     });
-    expect(seen.length).toBeGreaterThan(5);
+    expect(seen.length).toBeGreaterThan(2);
     seen.forEach(([fraction, best, bound], i) => {
       expect(fraction).toBeGreaterThanOrEqual(i > 0 ? seen[i - 1][0] : 0);
       expect(fraction).toBeLessThanOrEqual(1);

@@ -189,7 +189,9 @@ bool PassSolver::run(double from, double to) {
   const bool dense = large && isDense(loops, task_.set);
   // Hubs make fans expensive: their labels may take what some times the candidates do.
   const double fanBytes = worst ? 0 : FanBound::bytesFor(loops, task_.set);
-  const bool direct = k == 1 || dense || (worst && large && k > 2) || !work.fits(fanBytes) ||
+  // Without a triangle at some loop edge there is no surface, which is seen at once.
+  const bool gap = std::count(task_.set.loopEdges.begin(), task_.set.loopEdges.end(), kNone) > 0;
+  const bool direct = k == 1 || gap || dense || (worst && large && k > 2) || !work.fits(fanBytes) ||
                       fanBytes > 40 * CandidateSet::bytesFor(double(task_.set.size()));
   // Domains are few where loops and candidates are.
   const bool areFew = (k == 2 || (k == 3 && !large)) && !worst;
