@@ -47,7 +47,7 @@ describe('the tarball', () => {
   test('size: core.wasm up to 210 KB and the scripts up to 8 KB, gzipped', async () => {
     const dist = path.join(consumer.folder, 'node_modules/soapfilm/wasm/dist');
     const core = gzipSync(await readFile(path.join(dist, 'core.wasm'))).length;
-    // Made for size throughout it has 156 KB, and its kernels are up to twice as slow.
+    // Made for size throughout it has 156 KB, and its kernels take up to five times as long.
     expect(core).toBeLessThanOrEqual(210 * 1024);
     // Reading and writing files comes on top, for those who use it.
     const index = await readFile(path.join(dist, 'index.js'), 'utf8');
