@@ -6,61 +6,106 @@
 namespace sf {
 namespace {
 
-/// Sums of directed edges, in which u -> v and v -> u cancel.
-class EdgeSum {
+/// A sum of directed edges that are to cancel: a table of those that still wait for their opposites.
+/// Triangles mostly come next to each other, so few wait at a time.
+class OpenEdges {
  public:
-  explicit EdgeSum(const Certificate& c) : c_(c), starts_(c.at.size() + 1, 0) {}
+  explicit OpenEdges(Charge& charge) : charge_(charge), slots_(kSmallest, kFree) {}
 
-  /// Every edge is counted first, and then added in the same way.
-  void count(uint32_t u, uint32_t v) {
-    u = c_.same[u], v = c_.same[v];
-    ++starts_[(u < v ? u : v) + 1];
-  }
-  void endCount() {
-    for (size_t v = 0; v + 1 < starts_.size(); ++v) starts_[v + 1] += starts_[v];
-    edges_.resize(starts_.back());
-    fill_ = starts_;
-  }
   void add(uint32_t u, uint32_t v) {
-    u = c_.same[u], v = c_.same[v];
-    edges_[fill_[u < v ? u : v]++] = u < v ? 2 * v : 2 * u + 1;
-  }
-  /// Whether everything cancels.
-  bool isZero() {
-    std::vector<int32_t> sum(c_.at.size(), 0);
-    for (size_t u = 0; u + 1 < starts_.size(); ++u) {
-      for (uint32_t i = starts_[u]; i < starts_[u + 1]; ++i)
-        // Links between points at one place are no edges.
-        sum[edges_[i] / 2] += edges_[i] / 2 == u ? 0 : edges_[i] % 2 ? -1 : 1;
-      for (uint32_t i = starts_[u]; i < starts_[u + 1]; ++i)
-        if (sum[edges_[i] / 2] != 0) return false;
+    const uint64_t opposite = key(v, u);
+    for (size_t i = home(opposite);; i = (i + 1) & mask()) {
+      if (slots_[i] == opposite) return takeOut(i);
+      if (slots_[i] == kFree) break;
     }
-    return true;
+    if (2 * ++count_ > slots_.size()) grow();
+    insert(key(u, v));
   }
+  bool isZero() const { return count_ == 0; }
 
  private:
-  const Certificate& c_;
-  std::vector<uint32_t> starts_, fill_, edges_;
+  static constexpr uint64_t kFree = ~uint64_t(0);
+  static constexpr size_t kSmallest = 256;
+
+  /// Both directions of an edge have one home.
+  static uint64_t key(uint32_t u, uint32_t v) { return uint64_t(u) << 32 | v; }
+  size_t mask() const { return slots_.size() - 1; }
+  /// Edges between the same two groups of eight vertices are kept together: neighbours are wanted
+  /// one after the other.
+  size_t home(uint64_t k) const {
+    const uint32_t u = uint32_t(k >> 32), v = uint32_t(k);
+    const uint32_t least = u < v ? u : v, greatest = u < v ? v : u;
+    uint64_t group = (uint64_t(least >> 3) << 32 | greatest >> 3) * 0x9E3779B97F4A7C15u;
+    group ^= group >> 32;
+    return size_t((group << 4) + ((least + 3 * greatest) & 15)) & mask();
+  }
+  void insert(uint64_t k) {
+    size_t i = home(k);
+    while (slots_[i] != kFree) i = (i + 1) & mask();
+    slots_[i] = k;
+  }
+  /// Empties slot i, and moves up those behind it that would not be found any more.
+  void takeOut(size_t i) {
+    --count_;
+    for (size_t j = i;;) {
+      slots_[i] = kFree;
+      do {
+        j = (j + 1) & mask();
+        if (slots_[j] == kFree) return;
+      } while (((j - home(slots_[j])) & mask()) < ((j - i) & mask()));
+      slots_[i] = slots_[j];
+      i = j;
+    }
+  }
+  void grow() {
+    if (!charge_.add(sizeof(uint64_t) * slots_.size())) return;  // work ends, and with it certify
+    std::vector<uint64_t> old(2 * slots_.size(), kFree);
+    old.swap(slots_);
+    for (const uint64_t k : old)
+      if (k != kFree) insert(k);
+  }
+
+  Charge& charge_;
+  std::vector<uint64_t> slots_;
+  size_t count_ = 0;
 };
 
 /// Whether the boundary of the triangles is that of the rings, or of the frame less the rings.
-bool boundsRings(const Certificate& c, const std::vector<uint32_t>& triangles, bool frame) {
-  EdgeSum sum(c);
-  const auto forAll = [&](auto&& edge) {
-    for (size_t i = 0; i < triangles.size(); i += 3) {
-      edge(triangles[i], triangles[i + 1]);
-      edge(triangles[i + 1], triangles[i + 2]);
-      edge(triangles[i + 2], triangles[i]);
-    }
-    for (size_t i = 0; i < c.rings.size(); i += 2)
-      frame ? edge(c.rings[i], c.rings[i + 1]) : edge(c.rings[i + 1], c.rings[i]);
-    const uint32_t first = uint32_t(c.at.size()) - 4;
-    for (uint32_t k = 0; frame && k < 4; ++k) edge(first + (k + 1) % 4, first + k);
+bool boundsRings(const Certificate& c, const std::vector<uint32_t>& triangles, bool frame,
+                 Work& work) {
+  const size_t m = c.at.size();
+  Charge charge(work);
+  if (!charge.add(4 * uint64_t(m))) return false;
+  OpenEdges open(charge);
+  // The edge that has to be left over at each point; where there are more, the others are taken away.
+  std::vector<uint32_t> wanted(m, kNone);
+  const auto want = [&](uint32_t u, uint32_t v) {
+    u = c.same[u], v = c.same[v];
+    if (u == v) return;  // points at one place have no edge between them
+    if (wanted[u] == kNone)
+      wanted[u] = v;
+    else
+      open.add(v, u);
   };
-  forAll([&](uint32_t u, uint32_t v) { sum.count(u, v); });
-  sum.endCount();
-  forAll([&](uint32_t u, uint32_t v) { sum.add(u, v); });
-  return sum.isZero();
+  const auto add = [&](uint32_t u, uint32_t v) {
+    if (u == v) return;
+    if (wanted[u] == v)
+      wanted[u] = kNone;
+    else
+      open.add(u, v);
+  };
+  for (size_t i = 0; i < c.rings.size(); i += 2)
+    frame ? want(c.rings[i + 1], c.rings[i]) : want(c.rings[i], c.rings[i + 1]);
+  const uint32_t first = uint32_t(m) - 4;
+  for (uint32_t k = 0; frame && k < 4; ++k) want(first + k, first + (k + 1) % 4);
+  for (size_t i = 0; i < triangles.size(); i += 3) {
+    const uint32_t u = c.same[triangles[i]], v = c.same[triangles[i + 1]];
+    const uint32_t w = c.same[triangles[i + 2]];
+    add(u, v), add(v, w), add(w, u);
+  }
+  for (const uint32_t v : wanted)
+    if (v != kNone) return false;
+  return open.isZero() && work.going();
 }
 
 bool noneTurnedOver(const Certificate& c, const std::vector<uint32_t>& triangles) {
@@ -73,9 +118,6 @@ bool noneTurnedOver(const Certificate& c, const std::vector<uint32_t>& triangles
 }  // namespace
 
 bool certify(const Certificate& c, Work& work) {
-  Charge charge(work);
-  const size_t most = c.inside.size() > c.complement.size() ? c.inside.size() : c.complement.size();
-  if (!charge.add(4 * (3 * uint64_t(c.at.size()) + most + c.rings.size()))) return false;
   for (size_t v = 0; v < c.at.size(); ++v) {
     const Point2 p = c.at[v];
     if (!(std::fabs(p.x) <= 1e151 && std::fabs(p.y) <= 1e151)) return false;
@@ -83,7 +125,7 @@ bool certify(const Certificate& c, Work& work) {
   }
   if (!noneTurnedOver(c, c.inside) || !noneTurnedOver(c, c.complement)) return false;
   if (!work.tick(uint32_t(c.at.size() < (1u << 24) ? c.at.size() * 60 : 1u << 30))) return false;
-  return boundsRings(c, c.inside, false) && boundsRings(c, c.complement, true);
+  return boundsRings(c, c.inside, false, work) && boundsRings(c, c.complement, true, work);
 }
 
 }  // namespace sf

@@ -9,7 +9,7 @@ namespace sf {
 namespace {
 
 // Flips a triangle before insertion is thought cheaper.
-constexpr uint32_t kFlips = 6;
+constexpr uint32_t kFlips = 2;
 
 /// Points times the power of two that makes the largest coordinate about 1, if that is far off.
 ArrayView<const Point2> inRange(const std::vector<Point2>& at, std::vector<Point2>& scaled) {

@@ -26,6 +26,8 @@ PlaneSweep::~PlaneSweep() = default;
 
 const std::vector<uint8_t>& PlaneSweep::reversed() const { return state_->reversed; }
 
+bool PlaneSweep::isPlain() const { return state_->isPlain; }
+
 void PlaneSweep::findEqual(std::vector<uint32_t>& same) const {
   const State& s = *state_;
   const std::vector<Point2>& at = s.loops->at;
@@ -116,6 +118,7 @@ bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility&
     least.x = std::min(least.x, at.x), greatest.x = std::max(greatest.x, at.x);
     least.y = std::min(least.y, at.y), greatest.y = std::max(greatest.y, at.y);
   }
+  isPlain = count == m;
   events.resize(count);
   sortEvents(least.y, greatest.y);
   if (!work.tick(uint32_t(std::min<size_t>(m, 1u << 24)) * 60)) return false;
@@ -217,12 +220,12 @@ void State::set(uint32_t e, uint32_t lower, uint32_t upper, uint32_t input, bool
   edges.remember(e, edge.lo.x);
 }
 
-void State::see(uint32_t v, uint32_t left, uint32_t right, bool isSag) {
+void State::see(uint32_t v, uint32_t left, uint32_t right) {
   if (!sagsOnly)
     seen->left[v] = lowerNode(left), seen->right[v] = lowerNode(right);
-  else if (isSag)
+  else
     seen->left[v] = lowerNode(left);
-  if (!sagsOnly || isSag || loops->kind[v] == VertexKind::Bottom) seen->order.push_back(v);
+  seen->order.push_back(v);
 }
 
 bool State::passMonotone(const Event& event, bool down) {
@@ -230,7 +233,7 @@ bool State::passMonotone(const Event& event, bool down) {
   const uint32_t left = edges[e].left, right = edges[e].right;
   if (left != kNone && !(side(left, event.at) < 0)) return false;
   if (right != kNone && !(side(right, event.at) > 0)) return false;
-  if (!sagsOnly) see(v, down ? kNone : left, down ? right : kNone, false);
+  if (!sagsOnly) see(v, down ? kNone : left, down ? right : kNone);
   if (down)
     set(e, v, loops->prev[v], loops->prev[v], true);
   else
@@ -260,7 +263,7 @@ bool State::passMinimum(const Event& event) {
   const bool concave = shape > 0;  // the link that leads up is left of the one that leads down
   if (concave != isInside(left)) misplace(v, inputOf(left));
   if (concave) loops->kind[v] = VertexKind::Sag;
-  see(v, concave ? left : kNone, concave ? right : kNone, concave);
+  see(v, concave || sagsOnly ? left : kNone, concave ? right : kNone);
   const uint32_t a = edges.insertAfter(left), b = edges.insertAfter(a);
   set(concave ? b : a, v, prev, prev, true);
   set(concave ? a : b, v, next, v, false);
@@ -277,7 +280,7 @@ bool State::passMaximum(const Event& event) {
   if (left != kNone && !(side(left, event.at) < 0)) return false;
   if (right != kNone && !(side(right, event.at) > 0)) return false;
   if (concave) loops->kind[v] = VertexKind::Top;
-  if (!sagsOnly) see(v, concave ? left : kNone, concave ? right : kNone, false);
+  if (!sagsOnly) see(v, concave ? left : kNone, concave ? right : kNone);
   edges.remove(first), edges.remove(last);
   return true;
 }
@@ -286,7 +289,7 @@ bool State::passIsland(const Event& event) {
   uint32_t left, right;
   if (edges.find(event.at, edgeNear(event), left, right)) return false;
   if (!isInside(left)) misplace(event.node, inputOf(left));
-  see(event.node, left, right, true);
+  see(event.node, left, right);
   return true;
 }
 

@@ -43,7 +43,7 @@ class PlaneSweep {
   /// Checks the polygon and links its loops: outer ring counter-clockwise, holes clockwise,
   /// re-linked wherever rings touch, with a node for each corner and the kind of every node.
   ///   seen   what nodes see; if `sagsOnly`, `order` has bottoms, sags and islands alone, and only
-  ///          `left` of sags and islands is set
+  ///          their `left` is set: for bottoms the edge to the left outside the polygon
   /// Status Ok, or, if the polygon is not valid, the first of these three that applies, then of the
   /// others the one that the sweep meets first:
   ///   BadStarts          as for loops
@@ -66,6 +66,8 @@ class PlaneSweep {
   Outcome runComplement(const PolygonView& polygon, Work& work, LinkedPolygon& linked,
                         Visibility& seen);
 
+  /// Whether in the last call no two vertices were at one place and none was on an edge.
+  bool isPlain() const;
   /// For each vertex of the last call the first one at the same place: for certificates.
   void findEqual(std::vector<uint32_t>& same) const;
   /// [r] 1 where the loop of the last call runs through its ring backwards.

@@ -42,6 +42,7 @@ struct SweepState {
   Visibility* seen = nullptr;
   bool sagsOnly = false;
   size_t inputNodes = 0;  // those that are vertices of the input
+  bool isPlain = true;    // no two vertices at one place so far, and none on an edge
   Outcome outcome;        // the first crossing
   Outcome misplaced;  // the first sign of a hole in the wrong place, which a crossing may explain
 
@@ -68,7 +69,7 @@ struct SweepState {
   bool alternates(uint32_t left);
   void relink(uint32_t left, uint32_t right);
   void corner(VertexKind kind, const HalfEdge& in, HalfEdge& out, uint32_t left, uint32_t right);
-  void replaceBlock(uint32_t first, uint32_t last, uint32_t left);
+  void replaceBlock(uint32_t first, uint32_t left);
   bool reportDisorder(Point2 at);
 
   /// Where p is: positive to the left of edge e, negative to the right, 0 on it.
@@ -76,7 +77,7 @@ struct SweepState {
   void set(uint32_t e, uint32_t lower, uint32_t upper, uint32_t input, bool down);
   bool isInside(uint32_t left) const { return left != kNone && edges[left].down; }
   uint32_t lowerNode(uint32_t e) const { return e == kNone ? kNone : edges[e].lower; }
-  void see(uint32_t v, uint32_t left, uint32_t right, bool isSag);
+  void see(uint32_t v, uint32_t left, uint32_t right);
   uint32_t newNode(uint32_t vertex, Point2 at);
 
   uint32_t ringOf(uint32_t vertex) const;

@@ -23,6 +23,7 @@ uint32_t State::newNode(uint32_t vertex, Point2 at) {
 /// the latter, and links the corners of the polygon anew. False after a crossing.
 bool State::passTouch(size_t i, size_t count) {
   const Point2 at = events[i].at;
+  isPlain = false;
   for (size_t k = 0; k < count; ++k)
     if (loops->kind[events[i + k].node] == VertexKind::Island) {
       misplaced = {};  // told first: nothing else is at an isolated point's place
@@ -43,7 +44,7 @@ bool State::passTouch(size_t i, size_t count) {
   } else if (!strandsPart()) {
     return false;
   }
-  replaceBlock(first, last, left);
+  replaceBlock(first, left);
   return true;
 }
 
@@ -213,14 +214,13 @@ void State::corner(VertexKind kind, const HalfEdge& in, HalfEdge& out, uint32_t 
   out.node = v;
   loops->next[v] = out.other, loops->prev[out.other] = v;
   loops->kind[v] = kind;
-  see(v, left, right, kind == VertexKind::Sag);
+  if (!sagsOnly || kind == VertexKind::Sag || kind == VertexKind::Bottom) see(v, left, right);
 }
 
 /// Puts the half-edges above the point in the places of those below it.
-void State::replaceBlock(uint32_t first, uint32_t last, uint32_t left) {
+void State::replaceBlock(uint32_t first, uint32_t left) {
   size_t old = lower.size();
   uint32_t e = first, before = left;
-  SF_ASSERT(old == 0 || last != kNone);
   for (const HalfEdge& half : upper) {
     uint32_t place = e;
     if (old > 0)

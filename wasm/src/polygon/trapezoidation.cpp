@@ -227,14 +227,14 @@ bool TrapezoidTriangulator::insertIslands(const LinkedPolygon& linked, const Vis
 
 /// Flips for better angles, and inserts the islands.
 bool TrapezoidTriangulator::improve(const LinkedPolygon& linked, const Visibility& seen,
-                                    double flips, bool islands, Work& work) {
+                                    double flips, Work& work) {
   const uint32_t nodes = uint32_t(linked.at.size());
   Charge charge(work);
   if (!charge.add(8 * uint64_t(mesh_.corners.size()))) return false;
   mesh_.at = mesh_.metric = linked.at;
   if (!scaleMetric(linked.at, scaled_)) mesh_.metric = scaled_;
   mesh_.unused.clear();
-  if (!islands) mesh_.edgeFrom.clear();
+  mesh_.edgeFrom.clear();
   if (!findTwins(mesh_.corners, nodes, work, mesh_.twins)) return false;
   edges_.clear();
   for (uint32_t h = 0; h < mesh_.corners.size(); ++h)
@@ -270,8 +270,7 @@ bool TrapezoidTriangulator::triangulate(const LinkedPolygon& linked, const Visib
 
   bool islands = false;
   for (const VertexKind kind : linked.kind) islands |= kind == VertexKind::Island;
-  if ((flips > 0 || islands || forStrips) && !improve(linked, seen, flips, islands, work))
-    return false;
+  if ((flips > 0 || islands || forStrips) && !improve(linked, seen, flips, work)) return false;
   if (forStrips) removeEars();
   triangles.insert(triangles.end(), corners.begin(), corners.end());
   return work.going();

@@ -75,8 +75,7 @@ class TrapezoidTriangulator {
                    bool forStrips, Work& work, std::vector<uint32_t>& triangles);
 
  private:
-  bool improve(const LinkedPolygon& linked, const Visibility& seen, double flips, bool islands,
-               Work& work);
+  bool improve(const LinkedPolygon& linked, const Visibility& seen, double flips, Work& work);
   void removeEars();
   bool insertIslands(const LinkedPolygon& linked, const Visibility& seen, Work& work);
   TriangleMesh::Place followSight(uint32_t e, uint32_t p) const;

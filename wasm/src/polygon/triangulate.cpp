@@ -1,7 +1,10 @@
 #include "polygon/triangulate.h"
 
+#include <numeric>
+
 #include "base/charge.h"
 #include "polygon/certificate.h"
+#include "polygon/complement.h"
 #include "polygon/delaunay_flips.h"
 #include "polygon/flood.h"
 #include "polygon/link_rings.h"
@@ -36,8 +39,8 @@ struct PolygonTriangulator::State {
   Flood flood;
   TrapezoidTriangulator trapezoids;
   DelaunayFlips flips;
-  LinkedPolygon loops;
-  Visibility seen;
+  LinkedPolygon loops, outerLoops;
+  Visibility seen, outside;
   Certificate certificate;
   std::vector<uint32_t> nodes, starts;
 
@@ -47,7 +50,8 @@ struct PolygonTriangulator::State {
                         std::vector<FloodStep>* trace);
   Outcome appendRepaired(const PolygonView& polygon, const PolygonOptions& options, Work& work,
                          PolygonTriangulation& result);
-  bool isCertain(const PolygonView& polygon, ArrayView<const uint32_t> triangles, Work& work);
+  bool isCertain(const PolygonView& polygon, bool sagsOnly, ArrayView<const uint32_t> triangles,
+                 Work& work);
 };
 
 PolygonTriangulator::PolygonTriangulator() : state_(new State) {}
@@ -94,7 +98,8 @@ Outcome PolygonTriangulator::State::append(const PolygonView& polygon,
   }
   if (done) triangles.insert(triangles.end(), loops.flat.begin(), loops.flat.end());
   if (done && options.verify)
-    done = isCertain(polygon, {triangles.data() + before, triangles.size() - before}, work);
+    done =
+        isCertain(polygon, sagsOnly, {triangles.data() + before, triangles.size() - before}, work);
   if (!done) {
     SF_ASSERT(!work.going());
     triangles.resize(before);
@@ -104,12 +109,12 @@ Outcome PolygonTriangulator::State::append(const PolygonView& polygon,
 }
 
 /// Whether the triangles and those of the complement prove each other right.
-bool PolygonTriangulator::State::isCertain(const PolygonView& polygon,
+bool PolygonTriangulator::State::isCertain(const PolygonView& polygon, bool sagsOnly,
                                            ArrayView<const uint32_t> triangles, Work& work) {
   Charge charge(work);
   const uint32_t n = uint32_t(polygon.positions.size() / 2);
   const uint32_t p = uint32_t(polygon.points.size() / 2);
-  if (!charge.add((uint64_t(n) + p) * 60)) return false;
+  if (!charge.add((uint64_t(n) + p) * 100)) return false;
   Certificate& c = certificate;
   c.at.clear(), c.rings.clear(), c.complement.clear();
   for (const ArrayView<const double> xy : {polygon.positions, polygon.points})
@@ -117,7 +122,13 @@ bool PolygonTriangulator::State::isCertain(const PolygonView& polygon,
   c.at.resize(size_t(n) + p + 4);
   frameAround(polygon, c.at.data() + n + p);
   c.inside.assign(triangles.begin(), triangles.end());
-  sweep.findEqual(c.same);
+  const bool plain = sweep.isPlain();
+  if (plain) {
+    c.same.resize(size_t(n) + p);
+    std::iota(c.same.begin(), c.same.end(), 0);
+  } else {
+    sweep.findEqual(c.same);
+  }
   for (uint32_t k = 0; k < 4; ++k) c.same.push_back(n + p + k);
   for (uint32_t r = 0; r + 1 < polygon.starts.size(); ++r)
     for (uint32_t v = polygon.starts[r], last = polygon.starts[r + 1] - 1; v <= last; ++v) {
@@ -125,11 +136,18 @@ bool PolygonTriangulator::State::isCertain(const PolygonView& polygon,
       const bool turned = sweep.reversed()[r];
       c.rings.push_back(turned ? w : v), c.rings.push_back(turned ? v : w);
     }
-  if (!sweep.runComplement(polygon, work, loops, seen).ok()) return false;
-  if (!flood.run(loops, seen, work, c.complement, nullptr)) return false;
-  c.complement.insert(c.complement.end(), loops.flat.begin(), loops.flat.end());
-  const auto pointOf = [&](uint32_t node) { return node < n ? node : node + p; };
-  for (uint32_t& v : c.complement) v = pointOf(loops.vertex[v]);
+  if (plain && sagsOnly) {
+    takeComplement(loops, seen, outerLoops, outside);
+  } else if (!sweep.runComplement(polygon, work, outerLoops, outside).ok()) {
+    return false;
+  }
+  if (!flood.run(outerLoops, outside, work, c.complement, nullptr)) return false;
+  if (!plain || !sagsOnly) {
+    c.complement.insert(c.complement.end(), outerLoops.flat.begin(), outerLoops.flat.end());
+    // There, the frame's corners follow the vertices.
+    for (uint32_t& v : c.complement) v = outerLoops.vertex[v];
+    for (uint32_t& v : c.complement) v += v < n ? 0 : p;
+  }
   return certify(c, work);
 }
 

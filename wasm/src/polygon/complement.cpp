@@ -1,0 +1,59 @@
+#include "polygon/complement.h"
+
+#include <cmath>
+
+namespace sf {
+namespace {
+
+VertexKind seenFromOutside(VertexKind kind) {
+  switch (kind) {
+    case VertexKind::LeftBank:
+      return VertexKind::RightBank;
+    case VertexKind::RightBank:
+      return VertexKind::LeftBank;
+    case VertexKind::Bottom:
+      return VertexKind::Sag;
+    case VertexKind::Sag:
+      return VertexKind::Bottom;
+    case VertexKind::Top:
+      return VertexKind::Ceiling;
+    case VertexKind::Ceiling:
+      return VertexKind::Top;
+    default:
+      return VertexKind::Unused;
+  }
+}
+
+}  // namespace
+
+void takeComplement(const LinkedPolygon& polygon, const Visibility& seen, LinkedPolygon& complement,
+                    Visibility& outside) {
+  const uint32_t m = uint32_t(polygon.at.size());
+  complement.at = polygon.at, complement.vertex = polygon.vertex;
+  complement.next = polygon.prev, complement.prev = polygon.next;
+  complement.kind.resize(m);
+  double side = 0;
+  for (uint32_t v = 0; v < m; ++v) {
+    complement.kind[v] = seenFromOutside(polygon.kind[v]);
+    side = std::fmax(side, std::fmax(std::fabs(polygon.at[v].x), std::fabs(polygon.at[v].y)));
+  }
+  side *= 2;
+  const Point2 corners[4] = {{-side, -side}, {side, -side}, {side, side}, {-side, side}};
+  const VertexKind kinds[4] = {VertexKind::Bottom, VertexKind::RightBank, VertexKind::Ceiling,
+                               VertexKind::LeftBank};
+  for (uint32_t k = 0; k < 4; ++k) {
+    complement.at.push_back(corners[k]), complement.kind.push_back(kinds[k]);
+    complement.vertex.push_back(m + k);
+    complement.next.push_back(m + (k + 1) % 4), complement.prev.push_back(m + (k + 3) % 4);
+  }
+  complement.flat.clear();
+  outside.left.resize(m + 4);
+  outside.order.assign(1, m);
+  for (const uint32_t v : seen.order) {
+    if (complement.kind[v] == VertexKind::Unused) continue;
+    outside.order.push_back(v);
+    outside.left[v] = seen.left[v] == kNone ? m : seen.left[v];
+  }
+}
+
+}  // namespace sf
