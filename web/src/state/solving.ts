@@ -43,7 +43,7 @@ const kSettle = 60;
 /** During a drag a span this quick is let finish; a slower one waits for the drag's end. */
 const kLiveSeconds = 0.25;
 /** Surfaces on the way are shown after this long: before that they would only flicker. */
-const kShowBest = 400;
+const kShowBest = 3000;
 
 let film: ReturnType<typeof createWorker> | null = null;
 let running: AbortController | null = null;
