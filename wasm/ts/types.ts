@@ -54,13 +54,15 @@ export interface SpanOptions {
    * - `'delaunay'`: facets of the Delaunay tetrahedralization, after edge protection, which may insert
    *   vertices on loop edges. For loops of any size; on noisy ones the optimum costs up to 1.5 times
    *   that over all triples, or there is none.
-   * - `'near'`: the facets for the loops as they are, and triples of near-optimal surfaces. On noisy
-   *   loops the optimum among them is nearly always within 1.02 times that over all triples. For one
-   *   loop up to 4000 vertices or two up to 120 together; beyond, triples of neighbouring vertices.
+   * - `'near'`: the facets for the loops as they are, and triples of near-optimal surfaces. Where
+   *   angles count, the optimum among them is usually within 1.02 times that over all triples; over
+   *   two loops without angles it may cost half as much again or more. For one loop up to 4000
+   *   vertices or two up to 120 together; beyond, triples of neighbouring vertices.
+   *   One loop without angles in its cost takes `'all'` up to 1000 vertices, which is quicker.
    *   `optimal` and `lowerBound` speak of the last such set.
    * - `'auto'` (default): all triples while that is predicted to be quick; else near ones, for one
-   *   loop up to 2000 vertices or two up to 120; else the Delaunay facets. The next wider space where
-   *   one holds no triangulation.
+   *   loop up to 2000 vertices or, where angles count, two up to 120; else the Delaunay facets. The
+   *   next wider space where one holds no triangulation.
    */
   readonly candidates?: CandidateSpace | CandidateList;
   /**
@@ -203,7 +205,7 @@ export interface PolygonBatch {
 }
 
 export interface PolygonOptions {
-  /** `'flooding'` (default, Ronfard and Rossignac 1994) or `'trapezoids'` (Kumar 2000): better angles. */
+  /** `'flooding'` (default, Ronfard and Rossignac 1994) or `'trapezoids'` (Kumar): better angles. */
   readonly method?: 'flooding' | 'trapezoids';
   /** `'strips'`: triangle strips as well. Default `'triangles'`. */
   readonly output?: 'triangles' | 'strips';

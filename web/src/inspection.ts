@@ -1,6 +1,8 @@
 // `window.__soapfilm`: the page's state, read-only, for its own tests and for a look from the console.
 import type { Stage } from './scene/stage.ts';
+import type { Point2 } from './shapes/plane.ts';
 import type { Document } from './state/document.ts';
+import type { Flooding, PolygonDocument, RingPlace, Triangulated } from './state/polygon.ts';
 import { isStale, solve, surface, type Solve, type Surface } from './state/solving.ts';
 import { canRedo, canUndo, doc, isGrowing, notice, selection, tool, type Notice, type Selection, type Tool } from './state/store.ts';
 
@@ -19,9 +21,20 @@ export interface Inspection {
   whereIs(curve: number, vertex: number): { x: number; y: number };
 }
 
+/** `window.__polygons`: the same for the mode of polygons, once it has been opened. */
+export interface PolygonInspection {
+  readonly document: PolygonDocument;
+  readonly triangulated: Triangulated | null;
+  readonly flooding: Flooding | null;
+  readonly selection: RingPlace | null;
+  /** Where a point of the plane appears, in CSS pixels of the window. */
+  whereIs(point: Point2): { x: number; y: number };
+}
+
 declare global {
   interface Window {
     __soapfilm?: Inspection;
+    __polygons?: PolygonInspection;
   }
 }
 

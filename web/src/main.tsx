@@ -10,6 +10,7 @@ import { exposeForInspection } from './inspection.ts';
 import { actOn } from './ui/actions.ts';
 import { App } from './ui/app.tsx';
 import { attachKeys } from './ui/keys.ts';
+import { followMode } from './ui/modes.tsx';
 
 /** `?aa=0` turns antialiasing off and `?dpr=1` fixes the pixel ratio: both for slow renderers. */
 const query = new URLSearchParams(location.search);
@@ -38,6 +39,7 @@ try {
   openExample(kGallery[0], kGallery[0].variants?.values[0], true);
   forgetHistory();
   followDocument();
+  followMode();
 } catch (error) {
   root.innerHTML = '';
   const message = document.createElement('p');

@@ -1,79 +1,17 @@
 // The page's state: the document with its history, and how it is looked at. Everything that shows
 // state reads these signals; everything that changes the document dispatches a command.
-import { batch, computed, signal } from '@preact/signals';
+import { signal } from '@preact/signals';
 import type { PlaneKind } from '../shapes/plane.ts';
 import type { Point } from '../shapes/vec.ts';
 import { apply, kEmptyDocument, type Command, type Document } from './document.ts';
+import { createHistory } from './history.ts';
 
-const kHistoryLimit = 200;
+export const { doc, canUndo, canRedo, dispatch, endGesture, cancelGesture, forgetHistory, undo, redo } =
+  createHistory<Document, Command>(kEmptyDocument, apply, dropStaleSelection);
 
-const past = signal<readonly Document[]>([]);
-const future = signal<readonly Document[]>([]);
-const current = signal<Document>(kEmptyDocument);
-let openGesture: string | null = null;
-
-export const doc = computed(() => current.value);
-export const canUndo = computed(() => past.value.length > 0);
-export const canRedo = computed(() => future.value.length > 0);
-
-/**
- * Applies a command. Commands of one `gesture` (a drag, a slider's travel) become one step of
- * the history, until `endGesture`.
- */
-export function dispatch(command: Command, gesture: string | null = null): void {
-  const before = current.peek();
-  const after = apply(before, command);
-  if (after === before) return;
-  batch(() => {
-    if (gesture === null || gesture !== openGesture) {
-      past.value = [...past.peek().slice(1 - kHistoryLimit), before];
-    }
-    openGesture = gesture;
-    future.value = [];
-    current.value = after;
-    dropStaleSelection();
-  });
-}
-
-export function endGesture(): void {
-  openGesture = null;
-}
-
-/** Goes back to before the open gesture, as if it had not been. */
-export function cancelGesture(): void {
-  if (openGesture === null) return;
-  undo();
-  future.value = [];
-}
-
-/** Makes the document as it is the first of the history. */
-export function forgetHistory(): void {
-  openGesture = null;
-  batch(() => {
-    past.value = [];
-    future.value = [];
-  });
-}
-
-export function undo(): void {
-  step(past, future);
-}
-
-export function redo(): void {
-  step(future, past);
-}
-
-function step(from: typeof past, to: typeof past): void {
-  const next = from.peek().at(-1);
-  if (next === undefined) return;
-  openGesture = null;
-  batch(() => {
-    from.value = from.peek().slice(0, -1);
-    to.value = [...to.peek(), current.peek()];
-    current.value = next;
-    dropStaleSelection();
-  });
-}
+/** What the page is for at the moment: films between curves in space, or polygons in the plane. */
+export type Mode = 'film' | 'polygon';
+export const mode = signal<Mode>('film');
 
 export type Tool = 'select' | 'draw';
 
@@ -133,10 +71,10 @@ export function dismissNotice(): void {
   notice.value = null;
 }
 
-function dropStaleSelection(): void {
+function dropStaleSelection({ curves }: Document): void {
   const isStale = (s: Selection | null) => {
     if (s === null) return false;
-    const curve = current.peek().curves.at(s.curve);
+    const curve = curves.at(s.curve);
     return curve === undefined || (s.vertex !== null && s.vertex >= curve.length);
   };
   if (isStale(selection.peek())) selection.value = null;

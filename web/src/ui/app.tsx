@@ -4,13 +4,15 @@ import { computed } from '@preact/signals';
 import type { Stage } from '../scene/stage.ts';
 import { countOf, openFile } from '../state/files.ts';
 import { endSpan, solve, surface } from '../state/solving.ts';
-import { dismissNotice, doc, notice, tool } from '../state/store.ts';
+import { doc, mode, tool } from '../state/store.ts';
 import { PenBar, ToolBar, TopBar, ViewBar } from './bars.tsx';
 import { Gallery, Help, openDialog } from './dialogs.tsx';
 import { Gizmo } from './gizmo.tsx';
 import { Icon } from './icons.tsx';
 import { Inspector } from './inspector.tsx';
+import { polygonModule } from './modes.tsx';
 import { figure } from './result.tsx';
+import { Toast } from './toast.tsx';
 
 /** One line on how things stand: heard by screen readers, seen at the head of the panel on phones. */
 export const summary = computed(() => {
@@ -38,7 +40,7 @@ export function App({ stage, scene }: { stage: Stage; scene: HTMLElement }) {
   return (
     <>
       <TopBar stage={stage} />
-      <main>
+      <main hidden={mode.value !== 'film'}>
         <div
           class="viewport"
           ref={(element) => {
@@ -50,7 +52,7 @@ export function App({ stage, scene }: { stage: Stage; scene: HTMLElement }) {
           <PenBar stage={stage} />
           <Gizmo stage={stage} />
           <ViewBar stage={stage} />
-          <Toast />
+          {mode.value === 'film' && <Toast />}
           <Busy />
         </div>
         <aside class={isOpen ? 'panel open' : 'panel'} aria-label="Film">
@@ -71,8 +73,13 @@ export function App({ stage, scene }: { stage: Stage; scene: HTMLElement }) {
           </div>
         </aside>
       </main>
+      {polygonModule.value && (
+        <main hidden={mode.value !== 'polygon'}>
+          <polygonModule.value.PolygonMode />
+        </main>
+      )}
       <p class="visually-hidden" role="status" aria-live="polite">
-        {summary.value}
+        {mode.value === 'film' && summary.value}
       </p>
       <DropZone />
       <Gallery />
@@ -99,22 +106,6 @@ function Hint() {
             </button>
           </div>
         </>
-      )}
-    </div>
-  );
-}
-
-function Toast() {
-  const current = notice.value;
-  return (
-    <div class="toast-place" aria-live="polite">
-      {current && (
-        <div class={`toast floating ${current.kind}`}>
-          <span>{current.text}</span>
-          <button type="button" class="icon-button small" aria-label="Dismiss" onClick={dismissNotice}>
-            <Icon name="close" />
-          </button>
-        </div>
       )}
     </div>
   );
@@ -171,7 +162,8 @@ function DropZone() {
       depth = 0;
       setOver(false);
       const file = event.dataTransfer?.files[0];
-      if (file) void openFile(file);
+      const open = mode.peek() === 'film' ? openFile : polygonModule.peek()?.openPolygonFile;
+      if (file) void open?.(file);
     };
     window.addEventListener('dragenter', onEnter);
     window.addEventListener('dragleave', onLeave);
@@ -184,5 +176,6 @@ function DropZone() {
       window.removeEventListener('drop', onDrop);
     };
   }, []);
-  return over ? <div class="drop-zone">Drop a .curve, JSON or OBJ file</div> : null;
+  const kinds = mode.value === 'film' ? '.curve, JSON or OBJ' : 'GeoJSON, .curve, JSON or OBJ';
+  return over ? <div class="drop-zone">Drop a {kinds} file</div> : null;
 }

@@ -12,6 +12,7 @@ import {
   doc,
   drawing,
   isGrowing,
+  mode,
   redo,
   selection,
   tool,
@@ -23,6 +24,7 @@ import { addCircle, deleteSelected } from './actions.ts';
 import { linear, NumberField, Segments, type Choice } from './controls.tsx';
 import { openDialog } from './dialogs.tsx';
 import { Icon, Logo, type IconName } from './icons.tsx';
+import { ModeSwitch, polygonModule } from './modes.tsx';
 
 interface ButtonProps {
   readonly icon: IconName;
@@ -65,32 +67,41 @@ export function TopBar({ stage }: { stage: Stage }) {
         <Logo />
         <span>soapfilm</span>
       </h1>
-      <nav aria-label="Document">
-        <IconButton icon="gallery" label="Gallery" text="Gallery" keys="G" onClick={() => (openDialog.value = 'gallery')} />
-        <IconButton icon="open" label="Open a file" text="Open" keys="Ctrl O" onClick={chooseFile} />
-        <input
-          ref={(element) => {
-            fileInput = element;
-          }}
-          type="file"
-          hidden
-          accept=".curve,.json,.obj,.txt"
-          aria-label="File of loops"
-          onChange={(event) => {
-            const input = event.currentTarget;
-            const file = input.files?.[0];
-            // So that the same file can be opened again.
-            if (file) void openFile(file).finally(() => (input.value = ''));
-          }}
-        />
-        <ExportMenu stage={stage} />
-        <span class="rule" aria-hidden="true" />
-        <IconButton icon="undo" label="Undo" keys="Ctrl Z" disabled={!canUndo.value} onClick={undo} />
-        <IconButton icon="redo" label="Redo" keys="Ctrl Shift Z" disabled={!canRedo.value} onClick={redo} />
-      </nav>
-      <span class="document-name">{doc.value.name}</span>
-      <IconButton icon="help" label="Keys and gestures" keys="?" onClick={() => (openDialog.value = 'help')} />
+      <ModeSwitch />
+      {mode.value === 'film' ? <FilmNav stage={stage} /> : polygonModule.value && <polygonModule.value.PolygonNav />}
+      {mode.value === 'film' && <span class="document-name">{doc.value.name}</span>}
+      {mode.value === 'film' && (
+        <IconButton icon="help" label="Keys and gestures" keys="?" onClick={() => (openDialog.value = 'help')} />
+      )}
     </header>
+  );
+}
+
+function FilmNav({ stage }: { stage: Stage }) {
+  return (
+    <nav aria-label="Document">
+      <IconButton icon="gallery" label="Gallery" text="Gallery" keys="G" onClick={() => (openDialog.value = 'gallery')} />
+      <IconButton icon="open" label="Open a file" text="Open" keys="Ctrl O" onClick={chooseFile} />
+      <input
+        ref={(element) => {
+          fileInput = element;
+        }}
+        type="file"
+        hidden
+        accept=".curve,.json,.obj,.txt"
+        aria-label="File of loops"
+        onChange={(event) => {
+          const input = event.currentTarget;
+          const file = input.files?.[0];
+          // So that the same file can be opened again.
+          if (file) void openFile(file).finally(() => (input.value = ''));
+        }}
+      />
+      <ExportMenu stage={stage} />
+      <span class="rule" aria-hidden="true" />
+      <IconButton icon="undo" label="Undo" keys="Ctrl Z" disabled={!canUndo.value} onClick={undo} />
+      <IconButton icon="redo" label="Redo" keys="Ctrl Shift Z" disabled={!canRedo.value} onClick={redo} />
+    </nav>
   );
 }
 

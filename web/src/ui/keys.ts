@@ -4,7 +4,7 @@ import type { Stage } from '../scene/stage.ts';
 import type { PlaneKind } from '../shapes/plane.ts';
 import { saveSurface } from '../state/files.ts';
 import { endSpan, solve } from '../state/solving.ts';
-import { dismissNotice, drawing, isGrowing, notice, redo, selection, tool, undo } from '../state/store.ts';
+import { dismissNotice, drawing, isGrowing, mode, notice, redo, selection, tool, undo } from '../state/store.ts';
 import { addCircle, deleteSelected, nudge, stepCurve, stepVertex } from './actions.ts';
 import { chooseFile } from './bars.tsx';
 import { openDialog } from './dialogs.tsx';
@@ -39,7 +39,8 @@ export function attachKeys(stage: Stage, pointer: PointerTools): void {
   const withControl: Partial<Record<string, () => void>> = { z: undo, y: redo, o: chooseFile, s: saveSurface };
 
   window.addEventListener('keydown', (event) => {
-    if (event.defaultPrevented || event.altKey || openDialog.peek() !== null || isTyping(event)) return;
+    if (mode.peek() !== 'film' || event.defaultPrevented || event.altKey) return;
+    if (openDialog.peek() !== null || isTyping(event)) return;
     const key = event.key.toLowerCase();
     const hasControl = event.ctrlKey || event.metaKey;
     // A button takes the space bar for itself.
