@@ -151,6 +151,28 @@ TEST_CASE("near space: three loops and far too many vertices are left to wider s
   CHECK_FALSE(hasNearOptimalTriples(loopSet(randomLoops({40}, 0, random)), little));
 }
 
+TEST_CASE(
+    "near space: one loop without angles takes all triples, with the best so far or without") {
+  Random random(67);
+  MESSAGE("seed 67");
+  Problem problem;
+  problem.curves = {noisyCircle(320, 0.05, random)};
+  problem.options.areaWeight = 1;
+  problem.options.dihedralWeight = 0;
+  double cost[2];
+  for (const bool bestSoFar : {false, true}) {
+    problem.options.space = Space::Near;
+    problem.options.bestSoFar = bestSoFar;
+    const Answer answer = solve(problem);
+    REQUIRE(answer.outcome.ok());
+    REQUIRE(answer.span.found);
+    CHECK(answer.span.space == Space::All);
+    CHECK(answer.span.optimal);
+    cost[bestSoFar] = answer.span.cost;
+  }
+  CHECK(cost[0] == cost[1]);
+}
+
 TEST_CASE("near space: the work ends when told to") {
   Random random(66);
   const LoopSet loops = loopSet({noisyCircle(300, 0.1, random)});

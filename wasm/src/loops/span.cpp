@@ -22,6 +22,8 @@ namespace {
 constexpr double kPatience = 3e8, kPatienceForTwo = 4e7;
 /// Vertices of one loop up to which `auto` takes the `near` space: about a second.
 constexpr uint32_t kAutoNear = 2000;
+/// Vertices of one loop up to which all triples are the quickest where no angles count.
+constexpr uint32_t kPlainPolygon = 1000;
 /// Nearest neighbours of the `near` space, before it is widened.
 constexpr uint32_t kFirstReach = 8, kLastReach = 64;
 /// Candidates beyond which the `near` space is not widened further.
@@ -106,7 +108,7 @@ class Spanning {
       case Space::Delaunay:
         return runDelaunay();
       case Space::Near:
-        return runNear();
+        return isPlainPolygon() && allTriplesFit() ? runAll() : runNear();
       case Space::Given:
         return runGiven();
       case Space::Auto:
@@ -120,11 +122,14 @@ class Spanning {
   /// not to be had, and the other way round where the facets hold no surface.
   Outcome runAuto() {
     const uint32_t k = loops_.loopCount();
-    const double patience = k == 2 ? kPatienceForTwo : kPatience;
-    if (predictedTimeOfAllTriples(loops_) <= patience && allTriplesFit()) return runAll();
+    // Without angles near triples of two loops are not good enough to be taken for all.
+    const bool isNearGood = k == 1 || looksAtAngles();
+    const double patience = k == 2 && isNearGood ? kPatienceForTwo : kPatience;
+    const bool isQuick = predictedTimeOfAllTriples(loops_) <= patience || isPlainPolygon();
+    if (isQuick && allTriplesFit()) return runAll();
     partShare_ = 0.5;
-    const bool isNearQuick =
-        hasNearOptimalTriples(unit_, work_) && (k > 1 || loops_.vertexCount() <= kAutoNear);
+    const bool isNearQuick = isNearGood && hasNearOptimalTriples(unit_, work_) &&
+                             (k > 1 || loops_.vertexCount() <= kAutoNear);
     Outcome outcome = isNearQuick ? runNear() : runDelaunay();
     if (outcome.status == Status::NotFound) outcome = isNearQuick ? runDelaunay() : runNear();
     return outcome.status == Status::NotFound && allTriplesFit() ? runAll() : outcome;
@@ -171,6 +176,11 @@ class Spanning {
 
   bool looksAtAngles() const {
     return dihedralWeight_ > 0 || options_.objective == Objective::WorstDihedral;
+  }
+
+  /// One loop without angles in its cost takes all triples in less time than near ones.
+  bool isPlainPolygon() const {
+    return loops_.loopCount() == 1 && !looksAtAngles() && loops_.vertexCount() <= kPlainPolygon;
   }
 
   bool allTriplesFit() const {
@@ -318,6 +328,12 @@ class Spanning {
     TriangleWeights weights = triangleWeights(problem, {});
     // A small sum of angles goes with small ones.
     if (options_.objective == Objective::WorstDihedral) weights.dihedral = 1;
+    if (loops_.loopCount() == 2 && !looksAtAngles()) {
+      // Polygons of least area pinch along the bridge: what they give is no surface over two loops.
+      std::vector<uint32_t> around;
+      if (!nearTriples(unit_, list, kFirstReach, work_, around)) return {work_.status()};
+      list = std::move(around);
+    }
     for (uint32_t round = 0;; ++round) {
       std::vector<uint32_t> triples;
       Span last;
