@@ -61,7 +61,7 @@ export interface SpanOptions {
    *   One loop without angles in its cost takes `'all'` up to 1000 vertices, which is quicker.
    *   `optimal` and `lowerBound` speak of the last such set.
    * - `'auto'` (default): all triples while that is predicted to be quick; else near ones, for one
-   *   loop up to 2000 vertices or, where angles count, two up to 120; else the Delaunay facets. The
+   *   loop up to 1000 vertices or, where angles count, two up to 120; else the Delaunay facets. The
    *   next wider space where one holds no triangulation.
    */
   readonly candidates?: CandidateSpace | CandidateList;

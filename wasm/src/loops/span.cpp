@@ -20,8 +20,9 @@ namespace {
 /// Time within which `auto` takes all triples at once, in predicted nanoseconds of native code; for two
 /// loops less, since on noisy ones the domains that the prediction leaves out take ten times as long.
 constexpr double kPatience = 3e8, kPatienceForTwo = 4e7;
-/// Vertices of one loop up to which `auto` takes the `near` space: about a second.
-constexpr uint32_t kAutoNear = 2000;
+/// Vertices of one loop up to which `auto` takes the `near` space: half a second for noisy loops, two for
+/// smooth ones, natively.
+constexpr uint32_t kAutoNear = 1000;
 /// Vertices of one loop up to which all triples are the quickest where no angles count.
 constexpr uint32_t kPlainPolygon = 1000;
 /// Nearest neighbours of the `near` space, before it is widened.
