@@ -13,7 +13,7 @@ using State = SweepState;
 
 namespace {
 
-constexpr size_t kFewToSort = 128;
+constexpr size_t kFewToSort = 64, kFewInBucket = 8;
 // Events whose data are touched at once; from how many nodes on they do not fit the nearer caches.
 constexpr size_t kAhead = 64, kFarApart = 8192;
 // How far along a loop to look for an edge near a new one.
@@ -153,10 +153,19 @@ void State::sortEvents(double least, double greatest) {
   for (const Event& e : unsorted) ++buckets[bucketOf(e) + 1];
   for (size_t b = 0; b <= last; ++b) buckets[b + 1] += buckets[b];
   for (const Event& e : unsorted) events[buckets[bucketOf(e)]++] = e;
-  // Each start has moved to the end of its bucket.
+  // Each start has moved to the end of its bucket. Buckets of a few are sorted all together, by
+  // insertion, since nothing moves out of its own.
   for (size_t b = 0, begin = 0; b <= last; begin = buckets[b++])
-    if (buckets[b] - begin > 1)
+    if (buckets[b] - begin > kFewInBucket)
       std::sort(events.begin() + ptrdiff_t(begin), events.begin() + ptrdiff_t(buckets[b]), isBelow);
+  for (size_t i = 1; i < count; ++i) {
+    if (!isBelow(events[i], events[i - 1])) continue;
+    const Event event = events[i];
+    size_t place = i;
+    do events[place] = events[place - 1];
+    while (--place > 0 && isBelow(event, events[place - 1]));
+    events[place] = event;
+  }
 }
 
 /// Reads what the next events will need, without waiting for any of it: so the delays of memory
