@@ -1,6 +1,7 @@
 #include "polygon/delaunay_flips.h"
 
 #include <cmath>
+#include <initializer_list>
 
 #include "base/charge.h"
 #include "polygon/delaunay_insertion.h"
@@ -14,7 +15,8 @@ constexpr uint32_t kFlips = 2;
 /// Points times the power of two that makes the largest coordinate about 1, if that is far off.
 ArrayView<const Point2> inRange(const std::vector<Point2>& at, std::vector<Point2>& scaled) {
   double largest = 0;
-  for (const Point2 p : at) largest = std::fmax(largest, std::fmax(std::fabs(p.x), std::fabs(p.y)));
+  for (const Point2 p : at)
+    for (const double x : {std::fabs(p.x), std::fabs(p.y)}) largest = x > largest ? x : largest;
   int exponent = 0;
   if (largest > 0) std::frexp(largest, &exponent);
   if (exponent > -40 && exponent < 40) return at;
@@ -29,6 +31,19 @@ ArrayView<const Point2> inRange(const std::vector<Point2>& at, std::vector<Point
 
 }  // namespace
 
+/// Lists every edge between two triangles once.
+void DelaunayFlips::takeAllEdges() {
+  const uint32_t* twins = mesh_.twins.data();
+  const uint32_t count = uint32_t(mesh_.twins.size());
+  edges_.resize(count);
+  uint32_t edges = 0;
+  for (uint32_t h = 0; h < count; ++h) {
+    edges_[edges] = h;
+    edges += h < twins[h] && twins[h] != kNone;
+  }
+  edges_.resize(edges);
+}
+
 bool DelaunayFlips::run(const LinkedPolygon& loops, Work& work, std::vector<uint32_t>& triangles) {
   if (triangles.size() < 6) return true;
   Charge charge(work);
@@ -40,15 +55,12 @@ bool DelaunayFlips::run(const LinkedPolygon& loops, Work& work, std::vector<uint
   const auto isDone = [&] {
     const uint32_t nodes = uint32_t(loops.at.size());
     if (!findTwins(mesh_.corners, nodes, work, mesh_.twins)) return false;
-    edges_.clear();
-    for (uint32_t h = 0; h < mesh_.corners.size(); ++h)
-      if (mesh_.twins[h] != kNone && h < mesh_.twins[h]) edges_.push_back(h);
+    takeAllEdges();
     const uint32_t budget = kFlips * uint32_t(mesh_.corners.size() / 3);
     if (legalize(mesh_, edges_, budget, work) > 0 || !work.going()) return work.going();
     if (delaunayByInsertion(loops, work, mesh_.corners) || !work.going()) return work.going();
     // Not for loops that touch: flip on.
-    for (uint32_t h = 0; h < mesh_.corners.size(); ++h)
-      if (mesh_.twins[h] != kNone && h < mesh_.twins[h]) edges_.push_back(h);
+    takeAllEdges();
     legalize(mesh_, edges_, ~0u, work);
     return work.going();
   };

@@ -23,6 +23,8 @@ class DelaunayFlips {
   bool run(const LinkedPolygon& loops, Work& work, std::vector<uint32_t>& triangles);
 
  private:
+  void takeAllEdges();
+
   TriangleMesh mesh_;
   std::vector<uint32_t> edges_;
   std::vector<Point2> scaled_;
