@@ -1,16 +1,19 @@
 // npm run bench -- polygons [words…]: triangulators of polygons on the same inputs, in the same process,
-// in turns. Medians of warm runs; copies into and out of WebAssembly are in the times.
+// in turns. Medians of warm runs, in time of the processor, all threads of the process together; copies
+// into and out of WebAssembly are in the times.
 //   node polygon.bench.mjs <cases.mjs> <results.json> [words…]     all cases whose id holds the words
-//   node polygon.bench.mjs <cases.mjs> --case <id>                 one case, as a line of JSON
+//   node polygon.bench.mjs <cases.mjs> --case <id>                 one case, as lines of JSON; the last holds
 import { spawnSync } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
 import { fileURLToPath, pathToFileURL } from 'node:url';
-import { load, triangulatePolygon } from 'soapfilm';
+import { load, triangulatePolygon, triangulatePolygons } from 'soapfilm';
 import { measureSessions } from './polygon_sessions.mjs';
 import { angles, degrees, greedyStrips, maximumDegree } from './polygon_quality.mjs';
 import { goals, kColumns, row, exponents } from './polygon_report.mjs';
 import { kEngines } from './polygon_engines.mjs';
 
+/** Engines that are measured in turns with each other. */
+const kQuick = new Set([...Object.keys(kEngines).slice(0, 6), 'earcut', 'earcut, refined']);
 /** Time for the warm runs of all engines of a case together. */
 const kSeconds = 3;
 const kMostRuns = 41;
@@ -41,9 +44,10 @@ function watchMemory() {
 const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
 
 function timed(run) {
-  const start = performance.now();
+  const start = process.cpuUsage();
   run();
-  return (performance.now() - start) / 1000;
+  const { user, system } = process.cpuUsage(start);
+  return (user + system) / 1e6;
 }
 
 /** Medians of seconds for each engine; a string where one fails. */
@@ -113,7 +117,10 @@ function qualities(polygons, points) {
 async function measureCase(c) {
   const peak = watchMemory();
   await load();
-  const { polygons, points } = c.make();
+  const { polygons: all, points } = c.make();
+  const errors = c.validOnly ? triangulatePolygons(all, { skipInvalid: true }).errors : [];
+  const invalid = new Set(errors.map(({ polygon }) => polygon));
+  const polygons = all.filter((_, p) => !invalid.has(p));
   const n = polygons.flat(2).length + (points?.length ?? 0);
   const inner = points && Float64Array.from(points.flat());
   const names = Object.keys(kEngines).filter((name) => {
@@ -121,28 +128,35 @@ async function measureCase(c) {
     const takesPoints = ['flooding', 'trapezoids', 'delaunay', 'verify', 'strips'].includes(name);
     return points ? takesPoints : n / polygons.length <= kEngines[name].most;
   });
-  // Flooding first, so that the peak is its own.
-  const runs = names.map((name) => [name, kEngines[name].prepare(polygons, inner, c.repairs)]);
-  const found = race(runs, peak);
-  return { n, polygons: polygons.length, ...found, ...(c.quality && { quality: qualities(polygons, points) }) };
+  const racers = (wanted) =>
+    names.filter(wanted).map((name) => [name, kEngines[name].prepare(polygons, inner, c.repairs)]);
+  // Flooding first, so that the peak is its own; the slower ones last, since a case may take too long.
+  const { seconds, peakBytes } = race(racers((name) => kQuick.has(name)), peak);
+  const found = { n, polygons: polygons.length, seconds, peakBytes };
+  console.log(JSON.stringify(found));
+  if (c.quality) found.quality = qualities(polygons, points);
+  for (const slow of names.filter((name) => !kQuick.has(name))) {
+    Object.assign(seconds, race(racers((name) => name === slow), peak).seconds);
+    console.log(JSON.stringify(found));
+  }
 }
 
 function measureApart(module, c) {
   const args = [fileURLToPath(import.meta.url), module, '--case', c.id];
-  const { status, stdout, stderr } = spawnSync(process.execPath, ['--stack-size=4000', ...args], {
+  const { stdout, stderr } = spawnSync(process.execPath, ['--stack-size=4000', ...args], {
     encoding: 'utf8',
     timeout: 1000 * kMostSeconds,
     maxBuffer: 2 ** 26,
   });
-  if (status !== 0) return { problem: status === null ? `> ${kMostSeconds} s` : stderr.slice(-500) };
-  return JSON.parse(stdout);
+  const lines = stdout.trim().split('\n');
+  return lines[0] ? JSON.parse(lines[lines.length - 1]) : { problem: stderr.slice(-500) || `> ${kMostSeconds} s` };
 }
 
 const [, , module, second, ...words] = process.argv;
 const { polygonCases } = await import(pathToFileURL(module).href);
 if (second === '--case') {
   const c = polygonCases().find(({ id }) => id === words.join(' '));
-  console.log(JSON.stringify(await measureCase(c)));
+  await measureCase(c);
 } else {
   const wanted = polygonCases().filter(({ id }) => words.every((word) => id.includes(word)));
   console.log(kColumns);

@@ -65,7 +65,8 @@ export function goals(results, sessions) {
     if (c.limit) lines.push(verdict(`${id}: seconds`, seconds.flooding, c.limit.seconds));
     if (c.limit?.megabytes) lines.push(verdict(`${id}: megabytes`, peakBytes / 1e6, c.limit.megabytes));
     if (typeof seconds.verify === 'number' && c.n >= 1000) {
-      lines.push(verdict(`${id}: certificate, by one more triangulation`, seconds.verify / seconds.flooding - 1, 1.2));
+      const more = seconds.verify / seconds.flooding - 1;
+      lines.push(verdict(`${id}: certificate, by one more triangulation`, more, 1.2));
     }
     if (typeof seconds['earcut, refined'] === 'number' && c.n >= 1000) {
       const share = seconds.delaunay / seconds['earcut, refined'];
