@@ -8,7 +8,7 @@ import { createWorker } from 'soapfilm/worker';
 const kSteps = 120;
 
 const loops = parseLoops(readFileSync(process.argv[2]));
-const film = await createWorker();
+const film = await createWorker({ parts: ['loops'] });
 const home = loops.positions.slice(0, 3);
 const seconds = [];
 let candidates;

@@ -178,7 +178,7 @@ function figure9() {
   ]);
 }
 
-await load();
+await load({ parts: ['loops'] });
 const shown = pictures();
 const files = {
   'figure-7-one-curve.svg': figure7(shown),

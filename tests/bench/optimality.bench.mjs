@@ -14,7 +14,7 @@ function spanIn(candidates, loops, weights) {
   return { cost: span.found ? span.cost : null, seconds };
 }
 
-await load();
+await load({ parts: ['loops'] });
 const rows = process.argv.slice(2).flatMap((file) => {
   const loops = parseLoops(readFileSync(file));
   const [k, n] = [loops.starts.length - 1, loops.starts.at(-1)];

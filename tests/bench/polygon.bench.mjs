@@ -116,7 +116,7 @@ function qualities(polygons, points) {
 
 async function measureCase(c) {
   const peak = watchMemory();
-  await load();
+  await load({ parts: ['polygons'] });
   const { polygons: all, points } = c.make();
   const errors = c.validOnly ? triangulatePolygons(all, { skipInvalid: true }).errors : [];
   const invalid = new Set(errors.map(({ polygon }) => polygon));

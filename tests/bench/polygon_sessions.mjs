@@ -40,7 +40,7 @@ function measure({ id, goal, ring, inner }) {
 }
 
 export async function measureSessions(module) {
-  await load();
+  await load({ parts: ['polygons'] });
   const { sessionCases } = await import(pathToFileURL(module).href);
   const found = sessionCases().map(measure);
   for (const { id, move, scratch } of found) {

@@ -54,7 +54,7 @@ function watchMemory() {
 }
 
 const memory = watchMemory();
-await load();
+await load({ parts: ['loops'] });
 const { curves, space, objective, weights, bestSoFar } = JSON.parse(process.argv[2]);
 const loops = parseLoops(readFileSync(curves));
 const options = { candidates: space, objective };

@@ -16,7 +16,13 @@ const kCore: Readonly<Partial<Record<string, readonly string[]>>> = {
 };
 
 /** Names by which code outside wasm/ may know the library. */
-const kPublic = ['soapfilm', 'soapfilm/worker', 'soapfilm/core.wasm', 'soapfilm/package.json'];
+const kPublic = [
+  'soapfilm',
+  'soapfilm/worker',
+  'soapfilm/core.wasm',
+  'soapfilm/polygons.wasm',
+  'soapfilm/package.json',
+];
 
 /** Words that only wasm/ts/runtime.ts has a use for. */
 const kMemory = /\bmemory\.buffer\b|\bWebAssembly\.(Instance|Memory|instantiate)\b|\bsf_(alloc|free|result_\w+)\b/;

@@ -8,26 +8,28 @@ import { build as vite, createServer as createViteServer } from 'vite';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { list, packAndInstall, type Consumer } from './consumer.ts';
 
-// An app that spans two loops on the main thread and in a worker, and says so in its title.
+// An app that spans two loops on the main thread and in a worker, and triangulates a polygon in either,
+// and says so in its title.
 const kApp = `
-  import { load, spanLoops } from 'soapfilm';
+  import { load, spanLoops, triangulatePolygon } from 'soapfilm';
   import { createWorker } from 'soapfilm/worker';
   const ring = (count, z) => Array.from({ length: count }, (_, i) =>
     [Math.cos(2 * Math.PI * i / count), Math.sin(2 * Math.PI * i / count), z]);
   const loops = [ring(6, 0), ring(8, 1)];
   async function start() {
     await load();
-    const here = spanLoops(loops);
     const film = await createWorker();
-    const there = await film.spanLoops(loops);
+    const polygon = [[[0, 0], [9, 0], [9, 9], [0, 9]], [[2, 2], [4, 2], [3, 4]]];
+    const found = [spanLoops(loops), await film.spanLoops(loops)];
+    found.push(triangulatePolygon(polygon), await film.triangulatePolygon(polygon));
     film.dispose();
-    return here.triangles.length / 3 + ' ' + there.triangles.length / 3;
+    return found.map(({ triangles }) => triangles.length / 3).join(' ');
   }
   start().then(
     (title) => (document.title = title),
     (error) => (document.title = 'failed: ' + error.message),
   );`;
-const kTitle = '14 14';
+const kTitle = '14 14 7 7';
 
 const kTypes: Readonly<Record<string, string>> = {
   '.html': 'text/html',
@@ -103,15 +105,17 @@ async function visitFolder(folder: string, headers: Record<string, string> = {})
 const kHtml = '<!doctype html><script type="module" src="./app.js"></script>';
 
 describe('bundlers', () => {
-  test('vite: core.wasm and the worker become assets, and both entries work', async () => {
+  test('vite: both parts and the worker become assets, and both entries work', async () => {
     const root = await writeApp('vite', kHtml);
     await vite({ root, base: './', logLevel: 'error', configFile: false });
     const files = await list(path.join(root, 'dist/assets'));
     expect(files.filter((file) => /^core-.*\.wasm$/.test(file))).toHaveLength(1);
+    expect(files.filter((file) => /^polygons-.*\.wasm$/.test(file))).toHaveLength(1);
     expect(files.filter((file) => /^worker_thread-.*\.js$/.test(file))).toHaveLength(1);
     const { title, asked } = await visitFolder(path.join(root, 'dist'));
     expect(title).toBe(kTitle);
-    expect(asked.some((file) => /core-.*\.wasm$/.test(file))).toBe(true);
+    // Once each, although the worker has them as well.
+    expect(asked.filter((file) => /\.wasm$/.test(file))).toHaveLength(2);
     expect(asked.some((file) => /inline/.test(file))).toBe(false);
   });
 
@@ -160,6 +164,8 @@ describe('bundlers', () => {
     await writeFile(path.join(consumer.folder, 'index.html'), html);
     const { title, asked } = await visitFolder(consumer.folder);
     expect(title).toBe(kTitle);
-    expect(asked).toContain('/node_modules/soapfilm/wasm/dist/core.wasm');
+    for (const name of ['core.wasm', 'polygons.wasm']) {
+      expect(asked).toContain(`/node_modules/soapfilm/wasm/dist/${name}`);
+    }
   });
 });

@@ -1,7 +1,8 @@
 import { gzipSync } from 'node:zlib';
+import '../../web/src/inspection.ts';
 import { expect, openPage, test } from './support.ts';
 
-test('first load: at most 400 KB gzipped, all from the page’s own server', async ({ quietPage: page, baseURL }) => {
+test('first load: at most 325 KB gzipped, all from the page’s own server', async ({ quietPage: page, baseURL }) => {
   const sizes: Promise<readonly [url: string, bytes: number]>[] = [];
   page.on('response', (response) => {
     const url = response.url();
@@ -14,5 +15,20 @@ test('first load: at most 400 KB gzipped, all from the page’s own server', asy
   const total = loaded.reduce((sum, [, bytes]) => sum + bytes, 0);
   // Page, style, script, core: less would mean that the count has missed something.
   expect(total).toBeGreaterThan(150_000);
-  expect(total, loaded.map(([url, bytes]) => `${url} ${bytes}`).join('\n')).toBeLessThan(400 * 1024);
+  expect(total, loaded.map(([url, bytes]) => `${url} ${bytes}`).join('\n')).toBeLessThan(325 * 1024);
+});
+
+test('the core: its part for loops at first, that for polygons once their mode is wanted', async ({ quietPage: page }) => {
+  const parts: string[] = [];
+  page.on('request', (request) => {
+    const name = /\/(\w+)-[^/]*\.wasm$/.exec(request.url())?.[1];
+    if (name !== undefined) parts.push(name);
+  });
+  await openPage(page);
+  expect(parts).toEqual(['core']);
+  for (const mode of ['Polygon', 'Film', 'Polygon']) {
+    await page.getByRole('button', { name: mode, exact: true }).click();
+    if (mode === 'Polygon') await page.waitForFunction(() => window.__polygons?.triangulated);
+  }
+  expect(parts).toEqual(['core', 'polygons']);
 });

@@ -156,7 +156,7 @@ test('createWorker: works without the files of the core and the worker', async (
   const copy = await mkdtemp(path.join(tmpdir(), 'soapfilm-'));
   try {
     await cp(dist, copy, { recursive: true });
-    for (const name of ['core.wasm', 'worker_thread.js', 'worker_thread_node.js']) {
+    for (const name of ['core.wasm', 'polygons.wasm', 'worker_thread.js', 'worker_thread_node.js']) {
       await rm(path.join(copy, name));
     }
     await writeFile(path.join(copy, 'package.json'), '{ "type": "module" }');

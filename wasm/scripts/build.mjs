@@ -1,5 +1,5 @@
 // npm run build [core | library | page]: builds what has changed, all of it without an argument.
-//   core     wasm/src → core.wasm
+//   core     wasm/src → core.wasm, polygons.wasm
 //   library  core, and wasm/ts → the package in wasm/dist
 //   page     library, and web → the static page in web/dist
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
@@ -10,6 +10,9 @@ import { listFiles, unlessUpToDate, writeIfChanged } from './stamp.mjs';
 import { checkNode, emscriptenEnvironment, ensureNodeModules, ensureTools } from './tools.mjs';
 
 const dist = path.join(root, 'wasm/dist');
+/** The core's parts, each a CMake target. */
+const modules = ['core.wasm', 'polygons.wasm'];
+const built = modules.map((name) => `wasm/dist/${name}`);
 const scripts = ['wasm/scripts/build.mjs'];
 const packages = ['package.json', 'package-lock.json'];
 
@@ -42,15 +45,16 @@ export async function buildCore() {
   const step = {
     inputs: ['wasm/src', 'wasm/include', 'wasm/CMakeLists.txt', 'wasm/CMakePresets.json', ...scripts],
     facts: [paths.emcc, statSync(paths.emcc).mtimeMs],
-    outputs: ['wasm/dist/core.wasm'],
+    outputs: built,
   };
-  await unlessUpToDate('core.wasm', step, async () => {
+  await unlessUpToDate('core', step, async () => {
     const env = emscriptenEnvironment(paths.emcc);
     const beside = path.join(path.dirname(paths.emcc), 'emcmake');
     const launcher = [existsSync(beside) ? beside : 'emcmake'];
     await buildPreset('emscripten', { launcher, env });
-    const built = path.join(buildRoot, 'emscripten/core.wasm');
-    writeIfChanged(path.join(dist, 'core.wasm'), readFileSync(built));
+    for (const name of modules) {
+      writeIfChanged(path.join(dist, name), readFileSync(path.join(buildRoot, 'emscripten', name)));
+    }
   });
 }
 
@@ -59,8 +63,7 @@ export async function buildLibrary() {
   await buildCore();
   await ensureNodeModules();
   const step = {
-    inputs: ['wasm/ts', 'wasm/tsconfig.json', 'tsconfig.json', ...packages, ...scripts, 'wasm/dist/core.wasm'],
-    facts: readFileSync(path.join(dist, 'core.wasm')).length,
+    inputs: ['wasm/ts', 'wasm/tsconfig.json', 'tsconfig.json', ...packages, ...scripts, ...built],
     outputs: ['wasm/dist/index.js', 'wasm/dist/index.d.ts'],
   };
   await unlessUpToDate('library', step, async () => {
@@ -76,7 +79,7 @@ export async function buildLibrary() {
       writeIfChanged(path.join(dist, name), readFileSync(path.join(staging, name)));
     }
     for (const name of readdirSync(dist)) {
-      if (name !== 'core.wasm' && !names.includes(name)) {
+      if (!modules.includes(name) && !names.includes(name)) {
         rmSync(path.join(dist, name), { recursive: true });
       }
     }
@@ -86,7 +89,7 @@ export async function buildLibrary() {
 /**
  * Scripts that run by themselves, and files turned into modules:
  * worker_thread*.js, bundled so that a thread needs no other file;
- * core_inline.js, core.wasm in base64; any other *_inline.js, that script as text.
+ * core_inline.js and the like, core.wasm in base64; any other *_inline.js, that script as text.
  */
 async function generateModules(folder) {
   const { build } = await import('esbuild');
@@ -111,8 +114,8 @@ async function generateModules(folder) {
     const name = path.basename(declared, '.d.ts');
     const stem = name.slice(0, -'_inline'.length);
     const content =
-      stem === 'core'
-        ? readFileSync(path.join(dist, 'core.wasm')).toString('base64')
+      modules.includes(`${stem}.wasm`)
+        ? readFileSync(path.join(dist, `${stem}.wasm`)).toString('base64')
         : await bundle(stem, stem.endsWith('_node') ? 'cjs' : 'iife');
     writeFileSync(path.join(folder, `${name}.js`), `export default ${JSON.stringify(content)};\n`);
   }

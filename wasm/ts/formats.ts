@@ -2,6 +2,7 @@
 import { SoapfilmError, type ErrorPlace } from './errors.js';
 import { jsonLine } from './jsonline.js';
 import { toLoopSet } from './loopset.js';
+import { checkNames } from './options.js';
 import type { LoopSet, LoopsLike, Span } from './types.js';
 
 /**
@@ -25,7 +26,7 @@ export interface LoopFile extends LoopSet {
  *
  * @param data text, or bytes in UTF-8
  * @param options `format`: default, recognised by the content
- * @throws SoapfilmError `bad-file`, with `.line` and where it applies `.loop` and `.vertex`, for
+ * @throws SoapfilmError `bad-option`; `bad-file`, with `.line` and where it applies `.loop` and `.vertex`, for
  *   what is not in the format, a coordinate that is not finite, an open polyline, a loop of fewer
  *   than 3 vertices, and a file without loops
  */
@@ -33,6 +34,7 @@ export function parseLoops(
   data: string | ArrayBuffer | Uint8Array,
   options: { readonly format?: LoopFormat } = {},
 ): LoopFile {
+  checkNames(options, { format: true });
   const text = (typeof data === 'string' ? data : new TextDecoder().decode(data)).replace(/^\ufeff/, '');
   if (text.includes('\0')) fail('This is not a text file');
   const parsers = { curve: parseCurve, json: parseJson, obj: parseObj };
@@ -101,6 +103,7 @@ export function formatObj(
   surface: Pick<Span, 'positions' | 'triangles'> & Partial<Pick<Span, 'loopVertices' | 'starts'>>,
   options: { readonly name?: string; readonly precision?: number } = {},
 ): string {
+  checkNames(options, { name: true, precision: true });
   const { positions, triangles, loopVertices, starts } = surface;
   const { name, precision } = options;
   if (precision !== undefined && !(Number.isInteger(precision) && precision >= 1 && precision <= 17)) {

@@ -21,8 +21,7 @@ export function triangulateGeoJSON(
 ): GeoJSONTriangulation {
   const { polygons, featureStarts } = collect(geojson);
   const flat = flatten(polygons, 2);
-  const { skipInvalid } = options;
-  return { ...triangulate(flat, options, true, skipInvalid), positions: flat.positions, featureStarts };
+  return { ...triangulate(flat, options, true), positions: flat.positions, featureStarts };
 }
 
 function collect(geojson: unknown): { polygons: unknown[]; featureStarts: Uint32Array } {

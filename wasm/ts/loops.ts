@@ -1,8 +1,15 @@
 // spanLoops: options checked and turned into the core's settings, the core's arrays into a Span.
 import { SoapfilmError } from './errors.js';
 import { toLoopSet } from './loopset.js';
-import { badOption, checkLimits } from './options.js';
-import { callCore, type Arrays } from './runtime.js';
+import {
+  badOption,
+  checkLimits,
+  checkNames,
+  kCandidateList,
+  kSpanOptions,
+  kWeights,
+} from './options.js';
+import { callCore, shared, type Arrays } from './runtime.js';
 import type {
   CandidateList,
   LoopSet,
@@ -35,6 +42,7 @@ const kObjectives = ['sum', 'worst-dihedral'] as const;
  */
 export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | NoSpan {
   const input = toLoopSet(loops);
+  checkNames(options, kSpanOptions);
   const maxBytes = checkLimits(options);
   const { onProgress, onBest, maxSeconds, bestSoFar = false } = options;
   checkCalls(options);
@@ -42,6 +50,7 @@ export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | N
   const start = checkStart(options.startFrom);
   const started = performance.now();
   const { found, arrays } = callCore(
+    shared.loops,
     'sf_span_loops',
     [
       input.positions,
@@ -150,6 +159,7 @@ function settings(
     throw badOption('candidates', kSpaces.slice(0, 4), ', or { triangles }');
   }
   // NaN: the core sets the default from the size of the loops.
+  if (weights) checkNames(weights, kWeights, 'weights');
   const { area = 0, perimeter = 0, dihedral = 0 } = weights ?? { area: NaN, dihedral: 1 };
   if (weights) checkWeights({ area, perimeter, dihedral });
   return new Float64Array([
@@ -200,6 +210,7 @@ function checkStart(start: Uint32Array | undefined): Uint32Array | null {
 function checkList(list: CandidateList | null): CandidateList {
   const bad = (message: string) => new SoapfilmError('bad-candidates', message);
   const { triangles, weights } = list ?? {};
+  if (list) checkNames(list, kCandidateList, 'candidates');
   if (!(triangles instanceof Uint32Array) || triangles.length % 3 !== 0) {
     throw bad('`candidates.triangles` must be a Uint32Array of three indices for each triangle');
   }

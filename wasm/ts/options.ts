@@ -1,8 +1,55 @@
 // What the options of all functions have in common.
 import { SoapfilmError } from './errors.js';
+import type {
+  CandidateList,
+  LoadOptions,
+  Part,
+  PolygonOptions,
+  PolygonsOptions,
+  SpanOptions,
+  Weights,
+} from './types.js';
 
 /** What the core may use unless told otherwise; WebAssembly memory ends at 4 GiB. */
 const kDefaultMemoryBytes = 3 * 2 ** 30;
+
+export const kParts: readonly Part[] = ['loops', 'polygons'];
+
+/** The names of all options of a kind; the compiler sees to it that none is missing. */
+type Names<T> = Readonly<Record<keyof T, true>>;
+
+export const kLoadOptions: Names<LoadOptions> = { parts: true, wasm: true };
+
+const kLimits: Names<Limits> = { maxMemoryBytes: true, maxSeconds: true };
+
+export const kSpanOptions: Names<SpanOptions> = {
+  ...kLimits,
+  weights: true,
+  objective: true,
+  candidates: true,
+  boundaryNormals: true,
+  bestSoFar: true,
+  onBest: true,
+  startFrom: true,
+  onProgress: true,
+};
+
+export const kWeights: Names<Weights> = { area: true, perimeter: true, dihedral: true };
+
+export const kCandidateList: Names<CandidateList> = { triangles: true, weights: true };
+
+export const kPolygonOptions: Names<PolygonOptions> = {
+  ...kLimits,
+  method: true,
+  output: true,
+  quality: true,
+  verify: true,
+  repair: true,
+  trace: true,
+  borrow: true,
+};
+
+export const kPolygonsOptions: Names<PolygonsOptions> = { ...kPolygonOptions, skipInvalid: true };
 
 export interface Limits {
   readonly maxMemoryBytes?: number;
@@ -10,14 +57,32 @@ export interface Limits {
 }
 
 /**
- * Checks the options that every function has, and returns how many bytes the core may use.
+ * Checks that options are an object without other fields than the named ones: a misspelt option would
+ * go unnoticed.
+ * @param of the option that they are the fields of, if they are
  * @throws SoapfilmError `bad-option`
  */
-export function checkLimits(options: Limits): number {
-  if (typeof (options as unknown) !== 'object' || (options as unknown) === null) {
-    throw new SoapfilmError('bad-option', 'The options must be an object');
+export function checkNames(options: unknown, names: Readonly<Record<string, true>>, of?: string): void {
+  if (typeof options !== 'object' || options === null) {
+    const what = of === undefined ? 'The options' : `\`${of}\``;
+    throw new SoapfilmError('bad-option', `${what} must be an object`);
   }
-  const { maxMemoryBytes, maxSeconds } = options;
+  const path = of === undefined ? '' : `${of}.`;
+  for (const name of Object.keys(options)) {
+    if (Object.hasOwn(names, name)) continue;
+    const list = Object.keys(names).map((known) => `\`${path}${known}\``);
+    throw new SoapfilmError(
+      'bad-option',
+      `\`${path}${name}\` is not an option here; there are ${list.join(', ')}`,
+    );
+  }
+}
+
+/**
+ * Checks the limits that every function has, and returns how many bytes the core may use.
+ * @throws SoapfilmError `bad-option`
+ */
+export function checkLimits({ maxMemoryBytes, maxSeconds }: Limits): number {
   for (const [name, value] of Object.entries({ maxMemoryBytes, maxSeconds })) {
     if (value === undefined || (typeof value === 'number' && value >= 0)) continue;
     throw new SoapfilmError('bad-option', `\`${name}\` must be a number and not negative`);

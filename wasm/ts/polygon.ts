@@ -2,8 +2,8 @@
 import { SoapfilmError, type ErrorPlace } from './errors.js';
 import { isList, isNumber } from './loopset.js';
 import { ringError } from './messages.js';
-import { badOption, checkLimits } from './options.js';
-import { callCore } from './runtime.js';
+import { badOption, checkLimits, checkNames, kPolygonOptions, kPolygonsOptions } from './options.js';
+import { callCore, shared } from './runtime.js';
 import type {
   EarcutPolygon,
   FloodStep,
@@ -63,9 +63,7 @@ export function triangulatePolygons(
   polygons: PolygonBatch | readonly (readonly Ring[])[],
   options: PolygonsOptions = {},
 ): PolygonsTriangulation {
-  const { skipInvalid } = options;
-  choice('skipInvalid', kOffOn, skipInvalid);
-  return triangulate(toFlatPolygons(polygons), options, true, skipInvalid);
+  return triangulate(toFlatPolygons(polygons), options, true);
 }
 
 const bad = (message: string, place?: ErrorPlace): SoapfilmError =>
@@ -190,14 +188,16 @@ function choice(name: string, choices: readonly unknown[], value: unknown): numb
 /** Triangulates; the error of the first invalid polygon is thrown unless these are skipped. */
 export function triangulate(
   polygons: FlatPolygons,
-  options: PolygonOptions,
+  options: PolygonsOptions,
   several: boolean,
-  skipInvalid = false,
 ): PolygonsTriangulation {
+  checkNames(options, several ? kPolygonsOptions : kPolygonOptions);
   const maxBytes = checkLimits(options);
   const { method, repair, quality, output, verify, trace, borrow, maxSeconds } = options;
+  const { skipInvalid = false } = options;
   const { positions, ringStarts, polygonStarts, points, dim = 2 } = polygons;
   choice('borrow', kOffOn, borrow);
+  choice('skipInvalid', kOffOn, skipInvalid);
   const settings = Float64Array.of(
     dim,
     choice('method', ['flooding', 'trapezoids'], method),
@@ -209,6 +209,7 @@ export function triangulate(
     maxBytes,
   );
   const { arrays } = callCore(
+    shared.polygons,
     'sf_triangulate_polygons',
     [
       positions,

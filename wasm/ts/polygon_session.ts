@@ -3,13 +3,13 @@
 import { kDispose } from './dispose.js';
 import { SoapfilmError } from './errors.js';
 import { ringError } from './messages.js';
-import { checkLimits } from './options.js';
+import { checkLimits, checkNames } from './options.js';
 import { toFlatPolygon } from './polygon.js';
 import { callCore, Home, type Arrays, type CoreArgument } from './runtime.js';
 import type { PolygonEdit, PolygonLike, PolygonOptions, PolygonState } from './types.js';
 
 /** Where sessions live: apart from other calls, which may end with an instance that has to be dropped. */
-let home = new Home();
+let home = new Home('polygons');
 let open = 0;
 
 /** The order of the actions of `sf_session_edit`. */
@@ -18,7 +18,7 @@ const kInsertIsolated = 1;
 const kDelete = 2;
 const kMove = 3;
 
-type Types = Parameters<typeof callCore>[2];
+type Types = Parameters<typeof callCore>[3];
 
 /**
  * A triangulated polygon in the plane whose vertices can be inserted, deleted and moved; the work is in
@@ -43,10 +43,11 @@ export class PolygonSession {
    * are those of `PolygonState.next`.
    */
   constructor(polygon: PolygonLike, options: Pick<PolygonOptions, 'maxMemoryBytes'> = {}) {
+    checkNames(options, { maxMemoryBytes: true });
     const maxBytes = checkLimits(options);
     const { positions, ringStarts, points, dim } = toFlatPolygon(polygon);
     if (dim === 3) throw new SoapfilmError('bad-polygon', 'Polygons of sessions lie in the plane');
-    if (home.lost) [home, open] = [new Home(), 0];
+    if (home.lost) [home, open] = [new Home('polygons'), 0];
     this.#home = home;
     const [[number], triangles] = this.#call(
       'sf_session_open',
@@ -107,7 +108,7 @@ export class PolygonSession {
     this.#number = undefined;
     if (this.#home.lost) return;
     // Memory of instances never shrinks: the last session takes its instance along.
-    if (--open === 0) home = new Home();
+    if (--open === 0) home = new Home('polygons');
     else this.#call('sf_session_close', [number], []);
   }
 
@@ -121,7 +122,7 @@ export class PolygonSession {
   }
 
   #call<const T extends Types>(name: string, args: readonly CoreArgument[], types: T): Arrays<T> {
-    return callCore(name, args, types, { home: this.#home, explain: ringError }).arrays;
+    return callCore(this.#home, name, args, types, { explain: ringError }).arrays;
   }
 
   #edit(action: number, vertex: number, x: number, y: number): PolygonEdit {

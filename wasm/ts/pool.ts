@@ -1,5 +1,6 @@
 // Threads, the calls that wait for them, and what becomes of both when a call ends early.
 import { SoapfilmError } from './errors.js';
+import type { Modules } from './load.js';
 import { buffersOf, copyOf, unpackError, type Calls, type Reply, type Request } from './protocol.js';
 import { startThread, type Thread } from './thread.js';
 import type { ProgressListener } from './types.js';
@@ -30,7 +31,7 @@ interface Member {
 }
 
 export class Pool {
-  readonly #module: WebAssembly.Module;
+  readonly #modules: Modules;
   readonly #size: number;
   readonly #members = new Set<Member>();
   readonly #queue: Job[] = [];
@@ -39,8 +40,8 @@ export class Pool {
   #script: string | undefined;
   #disposed = false;
 
-  constructor(module: WebAssembly.Module, size: number) {
-    this.#module = module;
+  constructor(modules: Modules, size: number) {
+    this.#modules = modules;
     this.#size = size;
   }
 
@@ -221,7 +222,7 @@ export class Pool {
         script,
       );
       const member: Member = { thread, job: undefined };
-      const request: Request = { kind: 'start', module: this.#module };
+      const request: Request = { kind: 'start', modules: this.#modules };
       thread.post(request, []);
     });
   }

@@ -1,6 +1,7 @@
 // What the pool and its threads say to each other.
 import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
 import type { triangulateGeoJSON } from './geojson.js';
+import type { Modules } from './load.js';
 import type { spanLoops } from './loops.js';
 import type { triangulatePolygon, triangulatePolygons } from './polygon.js';
 
@@ -12,9 +13,9 @@ export interface Calls {
   readonly triangulateGeoJSON: typeof triangulateGeoJSON;
 }
 
-/** To a thread: first of all the core, then one call at a time. */
+/** To a thread: first of all the core's parts, then one call at a time. */
 export type Request =
-  | { readonly kind: 'start'; readonly module: WebAssembly.Module }
+  | { readonly kind: 'start'; readonly modules: Modules }
   | {
       readonly kind: 'call';
       readonly name: keyof Calls;

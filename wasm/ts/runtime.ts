@@ -1,7 +1,8 @@
-// The instance of core.wasm and the one way to call it. Only this file knows pointers and memory.
+// Instances of the core's parts, which are modules, and the one way to call them. Only this file knows
+// pointers and memory.
 import { SoapfilmError } from './errors.js';
 import { kNotFound, kOk, kStopped, statusError } from './messages.js';
-import type { ProgressListener } from './types.js';
+import type { Part, ProgressListener } from './types.js';
 
 /** An argument of an export: a number as it is; an array, copied in; null, no array. */
 export type CoreArgument = number | Float64Array | Uint32Array | Int32Array | Uint8Array | null;
@@ -27,21 +28,30 @@ export interface Watch<T extends readonly ArrayType[]> {
   readonly keepsResult?: boolean | undefined;
   /** Whether the arrays handed back are views of the core's memory, good until its next call. */
   readonly borrows?: boolean | undefined;
-  /** The instance to call; default: the one that all calls share which leave nothing behind. */
-  readonly home?: Home | undefined;
   /** The error for a status; default `statusError`. */
   readonly explain?: ((status: number, where: Uint32Array) => SoapfilmError) | undefined;
 }
 
 /**
- * An instance of the core, made when it is first called, in which calls leave something for later ones.
+ * An instance of a part, made when it is first called, in which calls leave something for later ones.
  * It stays until it traps: then all that was in it is lost.
  */
 export class Home {
   /** @internal */
   core: Core | undefined;
   lost = false;
+  readonly part: Part;
+
+  constructor(part: Part) {
+    this.part = part;
+  }
 }
+
+/** The instances that all calls share which leave nothing behind; a new one after each trap. */
+export const shared: Readonly<Record<Part, Home>> = {
+  loops: new Home('loops'),
+  polygons: new Home('polygons'),
+};
 
 const kProgressMs = 30;
 /** WebAssembly memory never shrinks: an instance that has grown past this is not kept. */
@@ -55,6 +65,8 @@ interface Core {
   readonly memory: WebAssembly.Memory;
   /** The export of that name; throws `load-failed` where the core has none. */
   readonly find: (name: string) => Export;
+  /** A result whose arrays are lent out, freed by the next call. */
+  lent?: number | undefined;
 }
 
 /** The call under way. */
@@ -69,25 +81,17 @@ interface Run {
   stop?: { readonly reason: unknown; readonly gently: boolean };
 }
 
-let module: WebAssembly.Module | undefined;
-const shared = new Home();
+const modules: Partial<Record<Part, WebAssembly.Module>> = {};
 let run: Run | undefined;
-/** A result whose arrays are lent out, freed by the next call. */
-let lent: { readonly core: Core; readonly handle: number } | undefined;
-
-/** The compiled core, or undefined before `startCore`. */
-export function compiledModule(): WebAssembly.Module | undefined {
-  return module;
-}
 
 /**
- * Makes `compiled` the core that is called from now on, and starts an instance of it.
- * @throws SoapfilmError `load-failed` when it is not soapfilm's core
+ * Makes `compiled` the module of a part that is called from now on, and starts an instance of it.
+ * @throws SoapfilmError `load-failed` when it is not soapfilm's
  */
-export async function startCore(compiled: WebAssembly.Module): Promise<void> {
+export async function startCore(part: Part, compiled: WebAssembly.Module): Promise<void> {
   const started = await WebAssembly.instantiate(compiled, imports(compiled));
-  shared.core = open(started);
-  module = compiled;
+  shared[part].core = open(part, started);
+  modules[part] = compiled;
 }
 
 /** Functions for all that the module imports: ours by name, the rest do nothing. */
@@ -106,12 +110,13 @@ function imports(compiled: WebAssembly.Module): WebAssembly.Imports {
   return result;
 }
 
-function open(instance: WebAssembly.Instance): Core {
+function open(part: Part, instance: WebAssembly.Instance): Core {
   const { memory } = instance.exports;
   const find = (name: string): Export => {
     const found = instance.exports[name];
     if (typeof found === 'function') return found as Export;
-    throw new SoapfilmError('load-failed', `The WebAssembly module has no function \`${name}\``);
+    const text = `The WebAssembly module loaded as '${part}' has no function \`${name}\``;
+    throw new SoapfilmError('load-failed', text);
   };
   if (!(memory instanceof WebAssembly.Memory)) {
     throw new SoapfilmError('load-failed', 'The WebAssembly module has no memory');
@@ -159,14 +164,16 @@ function onHostResult(handle: number): void {
 }
 
 /**
- * Calls an export `name(...args, where, result)` of the core and hands back its result arrays.
+ * Calls an export `name(...args, where, result)` of a part and hands back its result arrays.
  *
+ * @param home the instance to call: `shared[part]`, unless the call leaves something for later ones
  * @param types type of each result array, in the order of `include/soapfilm.h`
  * @returns copies of the arrays, unless borrowed; `found` is false for status 1, "no triangulation"
  * @throws SoapfilmError `not-loaded`; what the core's status says; `time-limit`; `out-of-memory`
  *   and `crashed`, after which the next call has a new instance; what `onProgress` throws
  */
 export function callCore<const T extends readonly ArrayType[]>(
+  home: Home,
   name: string,
   args: readonly CoreArgument[],
   types: T,
@@ -175,10 +182,8 @@ export function callCore<const T extends readonly ArrayType[]>(
   if (run) {
     throw new SoapfilmError('bad-option', 'soapfilm cannot be called from within `onProgress`');
   }
-  if (!module) {
-    throw new SoapfilmError('not-loaded', 'Call `await load()` once before any other function');
-  }
-  const { home = shared } = watch;
+  const module = modules[home.part];
+  if (!module) throw notLoaded(home.part);
   if (home.lost) throw new SoapfilmError('crashed', 'What this call is about was lost in a crash');
   const now = performance.now();
   const hear = (handle: number): void => {
@@ -187,11 +192,14 @@ export function callCore<const T extends readonly ArrayType[]>(
   const thisRun: Run = { watch, hear, started: now, told: now, fraction: 0 };
   run = thisRun;
   try {
-    // Of an instance that is gone, the views are all that is left.
-    if (lent && lent.core === shared.core) lent.core.find('sf_result_free')(lent.handle);
-    lent = undefined;
-    home.core ??= open(new WebAssembly.Instance(module, imports(module)));
-    return callIn(home.core, name, args, types, thisRun);
+    const core = (home.core ??= open(
+      home.part,
+      new WebAssembly.Instance(module, imports(module)),
+    ));
+    const { lent } = core;
+    core.lent = undefined;
+    if (lent !== undefined) core.find('sf_result_free')(lent);
+    return callIn(core, name, args, types, thisRun);
   } catch (error) {
     if (error instanceof SoapfilmError || (thisRun.stop && error === thisRun.stop.reason)) {
       throw error;
@@ -199,9 +207,18 @@ export function callCore<const T extends readonly ArrayType[]>(
     throw trapped(error, home);
   } finally {
     run = undefined;
-    const { core } = shared;
-    if (core && core.memory.buffer.byteLength > kKeepBytes) shared.core = undefined;
+    const { core } = shared[home.part];
+    if (core && core.memory.buffer.byteLength > kKeepBytes) shared[home.part].core = undefined;
   }
+}
+
+function notLoaded(part: Part): SoapfilmError {
+  return new SoapfilmError(
+    'not-loaded',
+    Object.keys(modules).length === 0
+      ? 'Call `await load()` once before any other function'
+      : `The part '${part}' is not loaded: name it in \`parts\` of \`load\` or \`createWorker\``,
+  );
 }
 
 /** `callCore` in one instance: arguments in, call, results out, everything freed. */
@@ -249,7 +266,7 @@ function callIn<const T extends readonly ArrayType[]>(
       cause: error,
     });
   } finally {
-    if (arrays && borrows) lent = { core: called, handle };
+    if (arrays && borrows) called.lent = handle;
     else if (handle !== 0) find('sf_result_free')(handle);
   }
   const culprits = new Uint32Array(memory.buffer, where, 4).slice();
@@ -285,7 +302,7 @@ const padded = (bytes: number): number => Math.ceil(bytes / 8) * 8;
 function trapped(error: unknown, home: Home): SoapfilmError {
   const full = home.core ? !canGrow(home.core.memory) : error instanceof RangeError;
   home.core = undefined;
-  home.lost = home !== shared;
+  home.lost = home !== shared[home.part];
   const cause = { cause: error };
   return full
     ? new SoapfilmError('out-of-memory', 'WebAssembly memory ran out', undefined, cause)

@@ -4,7 +4,7 @@ import { spanLoops } from './loops.js';
 import { triangulatePolygon, triangulatePolygons } from './polygon.js';
 import { buffersOf, packError, packErrors, type Calls, type Reply, type Request } from './protocol.js';
 import { startCore } from './runtime.js';
-import type { SpanOptions } from './types.js';
+import type { Part, PolygonOptions, SpanOptions } from './types.js';
 
 /** The end of the thread's channel, alike in browsers and Node. */
 export interface Port {
@@ -21,7 +21,8 @@ export function serve(port: Port): void {
   };
   const answer = async (request: Request): Promise<void> => {
     if (request.kind === 'start') {
-      await startCore(request.module);
+      const parts = Object.entries(request.modules) as [Part, WebAssembly.Module][];
+      await Promise.all(parts.map(([part, module]) => startCore(part, module)));
       reply({ kind: 'ready' });
       return;
     }
@@ -40,7 +41,8 @@ export function serve(port: Port): void {
       }),
     };
     // Views of the core's memory cannot be sent.
-    const value = packErrors(call(input, { ...options, ...listeners, borrow: false }));
+    const owned = (options as PolygonOptions).borrow === true && { borrow: false };
+    const value = packErrors(call(input, { ...options, ...listeners, ...owned }));
     reply({ kind: 'done', value }, buffersOf(value));
   };
   port.onmessage = ({ data }) => {

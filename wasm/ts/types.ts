@@ -314,7 +314,22 @@ export interface GeoJSONTriangulation extends PolygonsTriangulation {
   readonly featureStarts: Uint32Array;
 }
 
+/**
+ * What can be loaded by itself: `'loops'`, for `spanLoops`, is `core.wasm`; `'polygons'`, for
+ * `triangulatePolygon`, `triangulatePolygons`, `triangulateGeoJSON` and `PolygonSession`, is
+ * `polygons.wasm`.
+ */
+export type Part = 'loops' | 'polygons';
+
+/** A WebAssembly module, or where it is. */
+export type WasmSource = URL | string | Response | BufferSource | WebAssembly.Module;
+
 export interface LoadOptions {
-  /** Where to take `core.wasm` from. Default: beside the library's own module. */
-  readonly wasm?: URL | string | Response | BufferSource | WebAssembly.Module;
+  /** Which parts to fetch. Default: all, at the same time. */
+  readonly parts?: readonly Part[];
+  /**
+   * Where to take the parts from; one source alone is for the first of `parts`. Default: beside the
+   * library's own module.
+   */
+  readonly wasm?: WasmSource | Readonly<Partial<Record<Part, WasmSource>>>;
 }

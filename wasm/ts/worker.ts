@@ -3,6 +3,7 @@
 import { SoapfilmError } from './errors.js';
 import { kDispose } from './dispose.js';
 import { compile } from './load.js';
+import { checkNames, kLoadOptions, kPolygonOptions, kPolygonsOptions, kSpanOptions } from './options.js';
 import { Pool } from './pool.js';
 import { unpackErrors, type Calls } from './protocol.js';
 import type {
@@ -39,8 +40,8 @@ export interface CallOptions {
 }
 
 /**
- * A pool of threads. Its functions are like those of the package's main entry. Calls start in order as threads become free. Input is copied when the call is
- * made; results are the caller's own. Errors are those of the synchronous functions, and
+ * A pool of threads. Its functions are like those of the package's main entry. Calls start in order as
+ * threads become free. Input is copied when the call is made; results are the caller's own. Errors are those of the synchronous functions, and
  * `cancelled`, `disposed`, `crashed`; after any of them but `disposed` the next call works.
  */
 export interface Film {
@@ -64,10 +65,11 @@ export interface Film {
 }
 
 /**
- * Starts a pool. Needs no `load()`, and shares the compiled core with it.
+ * Starts a pool. Needs no `load()`, and shares what either compiles with it.
  * @throws SoapfilmError `load-failed`, `bad-option`
  */
 export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
+  checkNames(options, { ...kLoadOptions, size: true });
   const { size = 1 } = options;
   if (!Number.isInteger(size) || size < 1) {
     throw new SoapfilmError('bad-option', '`size` is a whole number of threads, at least 1');
@@ -80,12 +82,15 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
   const several =
     <T extends PolygonsTriangulation>(name: 'triangulatePolygons' | 'triangulateGeoJSON') =>
     async (input: Parameters<Calls[typeof name]>[0], options: PolygonsOptions & CallOptions = {}) => {
+      checkNames(options, { ...kPolygonsOptions, signal: true });
       const { signal, ...rest } = options;
       const call = [input, rest] as Parameters<Calls[typeof name]>;
       return unpackErrors((await pool.call(name, call, { signal })) as T);
     };
   return {
-    async spanLoops(loops, { signal, onProgress, onBest, ...rest } = {}) {
+    async spanLoops(loops, options = {}) {
+      checkNames(options, { ...kSpanOptions, signal: true });
+      const { signal, onProgress, onBest, ...rest } = options;
       // What is proven after the last surface was heard of holds for it as well.
       let bound = 0;
       const watch = {
@@ -107,9 +112,11 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
       if (!span.found || span.optimal || span.lowerBound >= bound) return span;
       return { ...span, lowerBound: Math.min(bound, span.cost) };
     },
-    triangulatePolygon(polygon, { signal, ...options } = {}) {
-      const result = pool.call('triangulatePolygon', [polygon, options], { signal });
-      return result as Promise<PolygonTriangulation>;
+    async triangulatePolygon(polygon, options = {}) {
+      checkNames(options, { ...kPolygonOptions, signal: true });
+      const { signal, ...rest } = options;
+      const result = await pool.call('triangulatePolygon', [polygon, rest], { signal });
+      return result as PolygonTriangulation;
     },
     triangulatePolygons: several<PolygonsTriangulation>('triangulatePolygons'),
     triangulateGeoJSON: several<GeoJSONTriangulation>('triangulateGeoJSON'),

@@ -132,7 +132,7 @@ export const loadError = signal<string | null>(null);
 /** Loads the core for this thread: polygons take a moment that is shorter than the way to a worker. */
 export async function startPolygons(): Promise<void> {
   try {
-    await load();
+    await load({ parts: ['polygons'] });
     isReady.value = true;
   } catch (error) {
     loadError.value = error instanceof Error ? error.message : String(error);

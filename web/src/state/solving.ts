@@ -99,7 +99,7 @@ async function run(of: Document, live: boolean): Promise<void> {
   running = mine;
   solve.value = { phase: 'running', fraction: 0, bestCost: Infinity, lowerBound: 0, since };
   try {
-    const worker = await (film ??= createWorker());
+    const worker = await (film ??= createWorker({ parts: ['loops'] }));
     if (!isMine()) return;
     const outcome = await worker.spanLoops(toLoopSet(of.curves), {
       ...spanOptions(of),
