@@ -239,6 +239,22 @@ TEST_CASE("strips: at most 1.5 indices a triangle, and 1.3 times as long as gree
   const GriddedBlob blob = blobWithGrid(100, 20, random);
   check("blob with grid", trianglesOf(blob.polygon, blob.inner));
   check("turned holes", trianglesOf(holeGrid(8, 8, false, random)));
+  check("stars in holes", trianglesOf(starsInHoles(5, 5, 20, random)));
+  const std::pair<const char*, Ring> rings[] = {
+      {"star", starRing(1000, 1, random)},
+      {"blob", blobRing(300, random)},
+      {"comb", combRing(333, random)},
+      {"double comb", doubleCombRing(166, random)},
+      {"interleaved combs", interleavedCombRing(166, random)},
+      {"zigzag", zigzagRing(1000, random)},
+      {"Koch", kochRing(4)},
+  };
+  for (const auto& [name, ring] : rings) check(name, trianglesOf(polygonOf({ring})));
+  // One strip, whoever makes it.
+  for (const Ring& ring : {spiralRing(600, 3), staircaseRing(300)}) {
+    const std::vector<uint32_t> corners = trianglesOf(polygonOf({ring}));
+    CHECK(double(stripsOf(corners).vertices.size()) <= 1.5 * double(corners.size() / 3));
+  }
 }
 
 TEST_CASE("strips: many triangles around one vertex, and a long band") {

@@ -30,6 +30,7 @@
 
 #include "base/work.h"
 #include "polygon/polygon.h"
+#include "polygon/strip_flips.h"
 #include "polygon/sweep.h"
 #include "polygon/triangle_mesh.h"
 #include "polygon/u_tree.h"
@@ -76,7 +77,6 @@ class TrapezoidTriangulator {
 
  private:
   bool improve(const LinkedPolygon& linked, const Visibility& seen, double flips, Work& work);
-  void removeEars();
   bool insertIslands(const LinkedPolygon& linked, const Visibility& seen, Work& work);
   TriangleMesh::Place followSight(uint32_t e, uint32_t p) const;
   TriangleMesh::Place walk(uint32_t h, uint32_t p) const;
@@ -84,6 +84,7 @@ class TrapezoidTriangulator {
   UniMonotonePolygons polygons_;
   UTree tree_;
   TriangleMesh mesh_;
+  StripFlips stripFlips_;
   std::vector<uint32_t> edges_;
   std::vector<uint32_t> islands_;
   std::vector<Point2> scaled_;
