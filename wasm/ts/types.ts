@@ -55,14 +55,16 @@ export interface SpanOptions {
    *   vertices on loop edges. For loops of any size; on noisy ones the optimum costs up to 1.5 times
    *   that over all triples, or there is none.
    * - `'near'`: the facets for the loops as they are, and triples of near-optimal surfaces. Where
-   *   angles count, the optimum among them is usually within 1.02 times that over all triples; over
-   *   two loops without angles it may cost half as much again or more. For one loop up to 4000
-   *   vertices or two up to 120 together; beyond, triples of neighbouring vertices.
-   *   One loop without angles in its cost takes `'all'` up to 1000 vertices, which is quicker.
+   *   angles count, the optimum among them is usually within 1.02 times that over all triples, in a
+   *   twentieth of the time for a few hundred vertices. For one loop up to 4000 vertices or two up to
+   *   120 together; beyond, triples of neighbouring vertices. Without angles in the cost one loop
+   *   up to 1000 vertices and two small ones take `'all'`, which is as quick; two larger ones may
+   *   cost half as much again as over all triples, or more.
    *   `optimal` and `lowerBound` speak of the last such set.
-   * - `'auto'` (default): all triples while that is predicted to be quick; else near ones, for one
-   *   loop up to 1000 vertices or, where angles count, two up to 120; else the Delaunay facets. The
-   *   next wider space where one holds no triangulation.
+   * - `'auto'` (default): all triples while that is predicted to be quick; else the Delaunay facets,
+   *   and if their surface is rough (more than 0.05 rad an edge on average) near triples, for one
+   *   loop up to 2000 vertices or, where angles count, two up to 120. The next wider space where one
+   *   holds no triangulation.
    */
   readonly candidates?: CandidateSpace | CandidateList;
   /**

@@ -22,13 +22,14 @@ namespace sf {
 /// that fit into memory.
 bool hasNearOptimalTriples(const LoopSet& loops, const Work& work);
 
-/// Appends triples of surfaces near the best one found: at most twelve for each vertex of one loop, six
-/// for each vertex and bridge of two. In any order, perhaps collinear or repeated, as facetTriples
+/// Appends triples of surfaces near the best one found: at most six for each vertex of one loop,
+/// and as many for each vertex and bridge of two. In any order, perhaps collinear or repeated, as facetTriples
 /// takes them. False when the work ended.
 ///   weights  without own weights
 ///   surface  [3m] of two loops, wound alike: the bridges tried are some of its edges. Empty: none is
 ///            known, the bridges are short. Not read for one loop.
-/// O(n^2) segments of a polygon, each about half a microsecond; up to 24 such polygons for two loops.
+/// O(n^2) segments of a polygon, each about a third of a microsecond; up to 24 such polygons for two
+/// loops.
 bool nearOptimalTriples(const LoopSet& loops, const TriangleWeights& weights,
                         ArrayView<const uint32_t> surface, Work& work,
                         std::vector<uint32_t>& triples);

@@ -14,24 +14,27 @@ namespace {
 constexpr float kNever = std::numeric_limits<float>::infinity();
 constexpr float kMost = std::numeric_limits<float>::max();
 /// Corners up to which every segment is kept.
-constexpr uint32_t kAllSegments = 500;
+constexpr uint32_t kAllSegments = 150;
 /// Beyond: all segments up to this length, and of longer ones so many at each corner and octave.
-constexpr uint32_t kShortSegment = 64;
-constexpr double kKeptPerOctave = 60;
-/// Corners beyond which fewer are kept, so that the time grows with their square.
-constexpr double kManyCorners = 700;
+constexpr uint32_t kShortSegment = 24;
+constexpr double kKeptPerOctave = 40;
+/// Corners beyond which fewer are kept, so that the number kept grows with n log n.
+constexpr double kManyCorners = 1000;
 /// Segments that are split for each one that is kept.
-constexpr size_t kSplitPerKept = 2;
-/// How far above the least bound, in mean costs of a triangle, splits are still tried.
-constexpr float kSlack = 0.25f;
-/// Of segments up to this length all of these are tried.
+constexpr double kSplitPerKept = 1.3;
+/// Of segments up to this length all apexes are tried.
 constexpr uint32_t kTryAll = 8;
-/// Of the mean by which costs exceed the least bound: how far above it splits are tried first.
-constexpr float kGap = 0.6f;
+/// Of longer ones those whose bound is above the least one by at most so much: of what was the mean
+/// excess of the cost over that bound, and of what the excess then turns out to be.
+constexpr float kUsualGap = 1.0f, kOwnGap = 0.6f;
+/// The second of these gaps is wanted when it is so much wider than the first.
+constexpr float kWider = 1.25f;
+/// With more apexes than this within the usual gap it is narrowed, at most so often.
+constexpr uint32_t kManyApexes = 20;
+constexpr int kMostNarrowings = 4;
+constexpr float kNarrower = 0.6f;
 
 double keptPerOctave(double n) { return kKeptPerOctave * std::min(1.0, kManyCorners / n); }
-
-constexpr float kHalfPi = 1.5707288f;
 
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = int32_t __attribute__((vector_size(16)));
@@ -47,23 +50,31 @@ inline bool any(Int4 mask) {
   std::memcpy(half, &mask, sizeof half);
   return (half[0] | half[1]) != 0;
 }
-
-/// 1 / sqrt(x) to six digits: the well-known first guess and two steps of Newton.
-inline Float4 reciprocalRoot(Float4 x) {
-  const Float4 half = 0.5f * x;
-  Float4 r = (Float4)(0x5f3759df - ((Int4)x >> 1));
-  r = r * (1.5f - half * r * r);
-  return r * (1.5f - half * r * r);
+inline Float4 squareRoot(Float4 v) {
+#if defined(__wasm_simd128__)
+  return __builtin_wasm_sqrt_f32x4(v);
+#elif defined(__SSE2__)
+  return __builtin_ia32_sqrtps(v);
+#else
+  return Float4{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+#endif
+}
+inline Float4 smaller(Float4 a, Float4 b) { return b < a ? b : a; }
+/// The least of the lanes of each of four vectors.
+inline Float4 leastOfLanes(Float4 a, Float4 b, Float4 c, Float4 d) {
+  const Float4 ab =
+      smaller(__builtin_shufflevector(a, b, 0, 4, 1, 5), __builtin_shufflevector(a, b, 2, 6, 3, 7));
+  const Float4 cd =
+      smaller(__builtin_shufflevector(c, d, 0, 4, 1, 5), __builtin_shufflevector(c, d, 2, 6, 3, 7));
+  return smaller(__builtin_shufflevector(ab, cd, 0, 1, 4, 5),
+                 __builtin_shufflevector(ab, cd, 2, 3, 6, 7));
 }
 
-/// The angles whose cosines are given, within 1e-4 rad.
-inline Float4 anglesOfCosines(Float4 x) {
-  const Float4 a = x < 0 ? -x : x;
-  const Float4 rest = 1 - a > 1e-12f ? 1 - a : Float4{1e-12f, 1e-12f, 1e-12f, 1e-12f};
-  const Float4 angle = rest * reciprocalRoot(rest) *
-                       (kHalfPi + a * (-0.2121144f + a * (0.0742610f - 0.0187293f * a)));
-  return x < 0 ? 2 * kHalfPi - angle : angle;
-}
+/// The angle between unit vectors is about root(u) (c0 + c1 u + ... + c4 u^4), where u is 1 less
+/// their product: fitted to within .0012 rad up to 2.4 rad, beyond which it is too small by up to .3.
+constexpr float kAngle[5] = {1.4226669f, 0.0392549f, 0.2252792f, -0.1818772f, 0.0662233f};
+/// A little more than 1, so that roots are of positive numbers.
+constexpr float kOne = 1.000002f;
 
 }  // namespace
 
@@ -71,15 +82,16 @@ PolygonChart::PolygonChart(const LoopSet& loops, const TriangleWeights& weights,
     : loops_(loops),
       areaWeight_(float(0.5 * weights.area)),
       perimeterWeight_(float(weights.perimeter)),
-      angleWeight_(float(weights.dihedral)),
       work_(work),
-      memory_(work) {}
+      memory_(work) {
+  for (int i = 0; i < 5; ++i) angle_[i] = float(weights.dihedral) * kAngle[i];
+}
 
 double PolygonChart::bytesFor(double n) {
   const double kept =
       n <= kAllSegments ? n * n / 2
                         : n * (kShortSegment + keptPerOctave(n) * std::log(n / kShortSegment) + 8);
-  return 6 * n * n + kept * (2 * sizeof(Splits) + 2 * sizeof(Segment)) + 64 * n;
+  return 8 * n * n + kept * (2 * sizeof(Splits) + 2 * sizeof(Segment)) + 64 * n;
 }
 
 inline PolygonChart::Splits PolygonChart::noSplits() {
@@ -87,132 +99,160 @@ inline PolygonChart::Splits PolygonChart::noSplits() {
   return {zero + kNever, zero, zero, zero};
 }
 
-/// Weighted angles between a triangle and those of the splits.
-inline Float4 PolygonChart::anglesTo(const Splits& s, Normal n) const {
-  return angleWeight_ * anglesOfCosines(n.x * s.x + n.y * s.y + n.z * s.z);
+/// Weighted angles between unit vectors.
+inline Float4 PolygonChart::angles(Float4 ax, Float4 ay, Float4 az, Float4 bx, Float4 by,
+                                   Float4 bz) const {
+  const Float4 u = kOne - ax * bx - ay * by - az * bz;
+  return squareRoot(u) *
+         (angle_[0] + u * (angle_[1] + u * (angle_[2] + u * (angle_[3] + u * angle_[4]))));
 }
 
-/// The least cost of a segment as seen from a triangle across it.
-inline float PolygonChart::reach(const Splits& s, Normal n) const {
-  const Float4 w = s.cost + anglesTo(s, n);
-  const float a = w[0] < w[1] ? w[0] : w[1], b = w[2] < w[3] ? w[2] : w[3];
-  return a < b ? a : b;
-}
-
-/// Adds a split unless another makes it needless, and drops those that it makes needless.
-inline void PolygonChart::insert(Splits& s, Segment& segment, float cost, Normal n,
-                                 uint32_t apex) const {
-  if (!(cost < s.cost[kSplits - 1])) return;
-  const Float4 angle = anglesTo(s, n);
-  uint32_t count = 0;
-  for (uint32_t q = 0; q < kSplits && s.cost[q] < kNever; ++q) {
-    if (cost >= s.cost[q] + angle[q]) return;
-    if (s.cost[q] >= cost + angle[q]) continue;
-    s.cost[count] = s.cost[q], s.x[count] = s.x[q], s.y[count] = s.y[q], s.z[count] = s.z[q];
-    segment.apex[count++] = segment.apex[q];
-  }
-  for (uint32_t q = count; q < kSplits; ++q) s.cost[q] = kNever;
-  uint32_t at = std::min(count, kSplits - 1);
-  for (; at > 0 && s.cost[at - 1] > cost; --at) {
-    s.cost[at] = s.cost[at - 1], s.x[at] = s.x[at - 1], s.y[at] = s.y[at - 1];
-    s.z[at] = s.z[at - 1], segment.apex[at] = segment.apex[at - 1];
-  }
-  s.cost[at] = cost, s.x[at] = n.x, s.y[at] = n.y, s.z[at] = n.z;
-  segment.apex[at] = apex;
-}
-
-/// Costs of four splits of a segment at once, for those apexes that make a triangle thick enough to
-/// tell its normal; infinity for the others.
-inline void PolygonChart::weigh(uint32_t first, uint32_t last, const uint32_t apex[4], Float4& cost,
-                                Normal normal[4]) const {
-  const Vec3 p = positions_[first], r = positions_[last];
-  const float ex = float(r.x - p.x), ey = float(r.y - p.y), ez = float(r.z - p.z);
-  Float4 dx, dy, dz;
-  for (uint32_t a = 0; a < 4; ++a) {
-    const Vec3 d = positions_[apex[a]] - p;
-    dx[a] = float(d.x), dy[a] = float(d.y), dz[a] = float(d.z);
-  }
-  const Float4 cx = dy * ez - dz * ey, cy = dz * ex - dx * ez, cz = dx * ey - dy * ex;
-  const Float4 squared = cx * cx + cy * cy + cz * cz, dd = dx * dx + dy * dy + dz * dz;
-  const float ee = ex * ex + ey * ey + ez * ez;
+/// The cost of a segment's splits as seen from a triangle across it.
+inline Float4 PolygonChart::costsFrom(const Splits& s, Normal n) const {
   const Float4 zero = {};
-  const Float4 inverse = reciprocalRoot(squared);
-  const Float4 nx = cx * inverse, ny = cy * inverse, nz = cz * inverse;
-  Float4 own = areaWeight_ * (squared * inverse);
-  if (perimeterWeight_ > 0) {
-    const Float4 gx = ex - dx, gy = ey - dy, gz = ez - dz, gg = gx * gx + gy * gy + gz * gz;
-    own += perimeterWeight_ * (dd * reciprocalRoot(dd) + gg * reciprocalRoot(gg) + std::sqrt(ee));
+  return s.cost + angles(zero + n.x, zero + n.y, zero + n.z, s.x, s.y, s.z);
+}
+
+/// Costs of splits of a segment, four at once, with the normals of their triangles: of those
+/// that are thick enough to tell a normal; infinity for the others.
+void PolygonChart::weigh(uint32_t first, uint32_t last, Tried& t) const {
+  const Normal p = positions_[first], r = positions_[last];
+  const float ex = r.x - p.x, ey = r.y - p.y, ez = r.z - p.z;
+  const float ee = ex * ex + ey * ey + ez * ez, side = perimeterWeight_ * std::sqrt(ee);
+  const uint32_t* fromFirst = &number_[size_t(first) * n_];
+  const uint32_t* fromLast = &number_[size_t(last) * n_];
+  for (uint32_t q = 0; q < t.count; q += 4) {
+    const uint32_t* apex = &t.apex[q];
+    const Normal &a = positions_[apex[0]], &b = positions_[apex[1]], &c = positions_[apex[2]],
+                 &d = positions_[apex[3]];
+    const Float4 dx = Float4{a.x, b.x, c.x, d.x} - p.x, dy = Float4{a.y, b.y, c.y, d.y} - p.y,
+                 dz = Float4{a.z, b.z, c.z, d.z} - p.z;
+    const Float4 cx = dy * ez - dz * ey, cy = dz * ex - dx * ez, cz = dx * ey - dy * ex;
+    const Float4 squared = cx * cx + cy * cy + cz * cz, dd = dx * dx + dy * dy + dz * dz;
+    const Float4 size = squareRoot(squared), inverse = 1 / size;
+    const Float4 nx = cx * inverse, ny = cy * inverse, nz = cz * inverse;
+    Float4 cost = areaWeight_ * size;
+    if (perimeterWeight_ > 0) {
+      const Float4 gx = ex - dx, gy = ey - dy, gz = ez - dz;
+      cost += perimeterWeight_ * (squareRoot(dd) + squareRoot(gx * gx + gy * gy + gz * gz)) + side;
+    }
+    Float4 left[4], right[4];
+    for (uint32_t i = 0; i < 4; ++i) {
+      const Normal n{nx[i], ny[i], nz[i]};
+      left[i] = costsFrom(splits_[fromFirst[apex[i]]], n);
+      right[i] = costsFrom(splits_[fromLast[apex[i]]], n);
+    }
+    cost += leastOfLanes(left[0], left[1], left[2], left[3]) +
+            leastOfLanes(right[0], right[1], right[2], right[3]);
+    const Float4 never = Float4{} + kNever;
+    store(&t.cost[q], squared > 1e-12f * ee * dd && squared > 1e-30f ? cost : never);
+    store(&t.x[q], nx), store(&t.y[q], ny), store(&t.z[q], nz);
   }
-  cost = squared > 1e-12f * ee * dd && squared > 1e-30f ? own : zero + kNever;
-  for (uint32_t a = 0; a < 4; ++a) {
-    normal[a] = {nx[a], ny[a], nz[a]};
-    cost[a] += reach(splits_[number_[at(first, apex[a])]], normal[a]) +
-               reach(splits_[number_[at(apex[a], last)]], normal[a]);
+  for (uint32_t q = t.count; q % 4 != 0; ++q) t.cost[q] = kNever;
+}
+
+/// The cheapest of the tried splits, without those that another makes needless.
+inline void PolygonChart::choose(Tried& t, Splits& s, Segment& segment) const {
+  for (uint32_t k = 0; k < kSplits; ++k) {
+    Float4 least = load(&t.cost[0]);
+    Int4 at = {0, 1, 2, 3}, here = at;
+    for (uint32_t q = 4; q < t.count; q += 4) {
+      here += 4;
+      const Float4 cost = load(&t.cost[q]);
+      at = cost < least ? here : at;
+      least = smaller(least, cost);
+    }
+    float cost = least[0];
+    uint32_t best = uint32_t(at[0]);
+    for (uint32_t i = 1; i < 4; ++i) {
+      const bool isLess = least[i] < cost;
+      best = isLess ? uint32_t(at[i]) : best;
+      cost = isLess ? least[i] : cost;
+    }
+    if (!(cost < kNever)) return;
+    s.cost[k] = cost, s.x[k] = t.x[best], s.y[k] = t.y[best], s.z[k] = t.z[best];
+    segment.apex[k] = t.apex[best];
+    if (k + 1 == kSplits) return;
+    const Float4 zero = {}, x = zero + t.x[best], y = zero + t.y[best], z = zero + t.z[best];
+    t.cost[best] = kNever;
+    for (uint32_t q = 0; q < t.count; q += 4) {
+      const Float4 c = load(&t.cost[q]);
+      const Float4 through = cost + angles(x, y, z, load(&t.x[q]), load(&t.y[q]), load(&t.z[q]));
+      store(&t.cost[q], c < through ? c : zero + kNever);
+    }
   }
 }
 
-/// Bounds of all apexes of a segment, the cost of what lies behind their triangles; the least of them.
+/// Bounds of all apexes of a segment, the cost of what lies behind their triangles, up to a multiple
+/// of four of them; the least one.
 float PolygonChart::boundApexes(uint32_t first, uint32_t last) {
   const float* left = &cost_[size_t(first) * n_ + first + 1];
   const float* right = &cost_[size_t(last) * n_ + first + 1];
   const uint32_t count = last - first - 1, whole = count & ~3u;
-  Float4 least4 = Float4{} + kNever;
+  Float4 least = Float4{} + kNever;
   for (uint32_t x = 0; x < whole; x += 4) {
     const Float4 b = load(left + x) + load(right + x);
-    least4 = b < least4 ? b : least4;
+    least = smaller(least, b);
     store(&bound_[x], b);
   }
-  float least = std::min(std::min(least4[0], least4[1]), std::min(least4[2], least4[3]));
-  for (uint32_t x = whole; x < count; ++x) {
-    bound_[x] = left[x] + right[x];
-    least = std::min(least, bound_[x]);
+  if (whole < count) {
+    Float4 rest = Float4{} + kNever;
+    for (uint32_t x = whole; x < count; ++x) rest[x - whole] = left[x] + right[x];
+    least = smaller(least, rest);
+    store(&bound_[whole], rest);
   }
-  return least;
+  return std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
 }
 
-/// Tries the splits whose bound is above `more` and at most `most`, as long as they may be among the
-/// cheap ones.
-void PolygonChart::trySplits(float more, float most, float slack, Splits& s, Segment& segment) {
-  const uint32_t first = segment.first, last = segment.last;
-  const uint32_t count = last - first - 1, whole = count & ~3u;
-  apexes_.clear();
-  const auto choose = [&](uint32_t begin, uint32_t end) {
-    for (uint32_t x = begin; x < end; ++x)
-      if (bound_[x] > more && bound_[x] <= most) apexes_.push_back(first + 1 + x);
+/// How many apexes have a bound of at most `most`.
+inline uint32_t PolygonChart::countApexes(uint32_t count, float most) const {
+  Int4 sum = {};
+  for (uint32_t x = 0; x < count; x += 4) sum -= load(&bound_[x]) <= most;
+  return uint32_t(sum[0] + sum[1] + sum[2] + sum[3]);
+}
+
+/// The cheap ones of the splits whose bound is at most `most`.
+void PolygonChart::tryApexes(uint32_t first, uint32_t last, float most, Splits& s,
+                             Segment& segment) {
+  Tried& t = tried_;
+  const auto decide = [&] {
+    for (uint32_t q = t.count; q % 4 != 0; ++q) t.apex[q] = t.apex[0];
+    weigh(first, last, t);
+    s = noSplits();
+    segment = {first, last, {kNone, kNone, kNone, kNone}};
+    choose(t, s, segment);
   };
-  for (uint32_t x = 0; x < whole; x += 4)
-    if (any(load(&bound_[x]) <= most)) choose(x, x + 4);
-  choose(whole, count);
-  for (size_t q = 0; q < apexes_.size();) {
-    uint32_t four[4], chosen = 0;
-    for (; q < apexes_.size() && chosen < 4; ++q)
-      if (bound_[apexes_[q] - first - 1] < s.cost[0] + slack) four[chosen++] = apexes_[q];
-    if (chosen == 0) break;
-    for (uint32_t a = chosen; a < 4; ++a) four[a] = four[0];
-    Float4 cost;
-    Normal normal[4];
-    weigh(first, last, four, cost, normal);
-    for (uint32_t a = 0; a < chosen; ++a) insert(s, segment, cost[a], normal[a], four[a]);
+  t.count = 0;
+  for (uint32_t x = 0; x < last - first - 1; x += 4) {
+    if (!any(load(&bound_[x]) <= most)) continue;
+    if (t.count + 4 > kRoom) {
+      decide();
+      t.count = 0;
+      for (uint32_t k = 0; k < kSplits && s.cost[k] < kNever; ++k)
+        t.apex[t.count++] = segment.apex[k];
+    }
+    for (uint32_t i = x; i < x + 4; ++i) {
+      t.apex[t.count] = first + 1 + i;
+      t.count += bound_[i] <= most;
+    }
   }
+  decide();
 }
 
-/// The cheap splits of a segment; false if it has none. The cheapest is the least over all apexes of
-/// what the chart knows; of the others some may be missed.
+/// The cheap splits of a segment; false if it has none. Some may be missed.
 bool PolygonChart::split(uint32_t first, uint32_t last, Splits& s, Segment& segment) {
-  segment = {first, last, {kNone, kNone, kNone, kNone}};
-  s = noSplits();
   const float least = boundApexes(first, last);
   if (least == kNever) return false;
-  const uint32_t length = last - first;
-  if (length <= kTryAll) {
-    trySplits(-kNever, kMost, kMost, s, segment);
-  } else {
-    // First those that are cheap as a rule, so that few of the others have to be tried.
-    const float slack = kSlack * least / float(length), usual = least + gap_;
-    trySplits(-kNever, usual, slack, s, segment);
-    if (s.cost[0] + slack > usual)
-      trySplits(usual, std::min(kMost, s.cost[0] + slack), slack, s, segment);
+  s = noSplits();
+  if (last - first > kTryAll) {
+    float gap = gap_;
+    for (int n = 0; n < kMostNarrowings; ++n, gap *= kNarrower)
+      if (countApexes(last - first - 1, least + gap) <= kManyApexes) break;
+    tryApexes(first, last, least + gap, s, segment);
+    const float own = kOwnGap * (s.cost[0] - least);
+    if (own < kNever && own > kWider * gap) tryApexes(first, last, least + own, s, segment);
   }
+  if (!(s.cost[0] < kNever)) tryApexes(first, last, kMost, s, segment);
   if (!(s.cost[0] < kNever)) return false;
   gapSum_ += s.cost[0] - least;
   return true;
@@ -225,7 +265,8 @@ void PolygonChart::keep(const Splits& splits, const Segment& segment) {
   segments_.push_back(segment);
   cost_[size_t(segment.first) * n_ + segment.last] = cost;
   cost_[size_t(segment.last) * n_ + segment.first] = cost;
-  number_[at(segment.first, segment.last)] = number;
+  number_[size_t(segment.first) * n_ + segment.last] = number;
+  number_[size_t(segment.last) * n_ + segment.first] = number;
 }
 
 /// Segments of one edge: free, or seen by the face across it.
@@ -233,7 +274,8 @@ void PolygonChart::addEdges() {
   for (uint32_t i = 0; i + 1 < n_; ++i) {
     Splits s = noSplits();
     // No normal is at a right angle to all: that is taken back.
-    s.cost[0] = -angleWeight_ * kHalfPi;
+    const Splits none = {};
+    s.cost[0] = -costsFrom(none, {0, 0, 0})[0];
     if (corners_[i].hasFace) {
       const Vec3 face = corners_[i].normal;
       s.cost[0] = 0, s.x[0] = float(face.x), s.y[0] = float(face.y), s.z[0] = float(face.z);
@@ -242,24 +284,48 @@ void PolygonChart::addEdges() {
   }
 }
 
+/// What segments of the short length cost on average, shared out among the edges they span.
+void PolygonChart::findPrices() {
+  std::vector<double> change(n_ + 1, 0), count(n_ + 1, 0);
+  for (uint32_t i = 0; i + kShortSegment < n_; ++i) {
+    const float cost = cost_[size_t(i) * n_ + i + kShortSegment];
+    if (!(cost < kNever)) continue;
+    change[i] += cost / kShortSegment, change[i + kShortSegment] -= cost / kShortSegment;
+    count[i] += 1, count[i + kShortSegment] -= 1;
+  }
+  price_.assign(n_, 0);
+  double sum = 0, segments = 0;
+  for (uint32_t i = 0; i + 1 < n_; ++i) {
+    sum += change[i], segments += count[i];
+    price_[i + 1] = price_[i] + (segments > 0 ? float(sum / segments) : 0);
+  }
+}
+
+/// Keeps so many of the ranked segments, the least ones.
+void PolygonChart::keepLeast(std::vector<Ranked>& ranked, size_t count) {
+  if (ranked.size() <= count) return;
+  const auto end = ranked.begin() + std::ptrdiff_t(count);
+  std::nth_element(ranked.begin(), end, ranked.end());
+  ranked.erase(end, ranked.end());
+}
+
 /// Of the segments of one length, those with the least bounds are split, and of these the cheapest
-/// are kept: all of them while there are few.
+/// are kept: all of them while there are few. Both beside what such a stretch of the polygon costs
+/// anyway: else those where it is smooth would drive out all others.
 bool PolygonChart::computeLength(uint32_t length) {
-  const bool keepAll = n_ <= kAllSegments || length <= kShortSegment || length == n_ - 1;
-  const size_t most = keepAll ? n_ : size_t(std::ceil(keptPerOctave(n_) * n_ / length)) + 4;
-  const auto keepLeast = [](std::vector<Ranked>& ranked, size_t count) {
-    if (ranked.size() <= count) return;
-    const auto end = ranked.begin() + std::ptrdiff_t(count);
-    std::nth_element(ranked.begin(), end, ranked.end());
-    ranked.erase(end, ranked.end());
-  };
+  const uint32_t count = n_ - length;
+  size_t most = count;
+  if (n_ > kAllSegments && length > kShortSegment)
+    most = std::min(most, size_t(std::ceil(keptPerOctave(n_) * n_ / length)) + 4);
+  const bool keepAll = most == count;
+  if (!keepAll && price_.empty()) findPrices();
   ranked_.clear();
-  for (uint32_t i = 0; i + length < n_; ++i) {
+  for (uint32_t i = 0; i < count; ++i) {
     if (!work_.tick(20 + length / 2)) return false;
-    const float bound = keepAll ? 0 : boundApexes(i, i + length);
+    const float bound = keepAll ? 0 : boundApexes(i, i + length) - price(i, i + length);
     if (bound < kNever) ranked_.push_back({bound, i});
   }
-  keepLeast(ranked_, kSplitPerKept * most);
+  keepLeast(ranked_, size_t(kSplitPerKept * double(most)));
   gapSum_ = 0;
   std::vector<Splits> splits;
   std::vector<Segment> segments;
@@ -267,17 +333,18 @@ bool PolygonChart::computeLength(uint32_t length) {
   Splits s;
   Segment segment;
   for (const Ranked& r : ranked_) {
-    if (!work_.tick(500 + length / 2)) return false;
-    if (!split(r.second, r.second + length, s, segment)) continue;
+    if (!work_.tick(200 + length / 2)) return false;
+    const uint32_t first = r.second, last = first + length;
+    if (!split(first, last, s, segment)) continue;
     if (keepAll) {
       keep(s, segment);
       continue;
     }
-    kept.push_back({float(s.cost[0]), uint32_t(splits.size())});
+    kept.push_back({s.cost[0] - price(first, last), uint32_t(splits.size())});
     splits.push_back(s);
     segments.push_back(segment);
   }
-  if (!ranked_.empty()) gap_ = kGap * gapSum_ / float(ranked_.size());
+  if (!ranked_.empty()) gap_ = kUsualGap * gapSum_ / float(ranked_.size());
   keepLeast(kept, most);
   for (const Ranked& r : kept) keep(splits[r.second], segments[r.second]);
   return true;
@@ -287,9 +354,9 @@ bool PolygonChart::computeLength(uint32_t length) {
 void PolygonChart::weighRoot() {
   const Corner& corner = corners_[n_ - 1];
   if (!corner.hasFace || cost_[n_ - 1] == kNever) return;
-  Splits& s = splits_[number_[at(0, n_ - 1)]];
+  Splits& s = splits_[number_[n_ - 1]];
   const Vec3 f = corner.normal;
-  s.cost = s.cost + anglesTo(s, {float(f.x), float(f.y), float(f.z)});
+  s.cost = costsFrom(s, {float(f.x), float(f.y), float(f.z)});
 }
 
 bool PolygonChart::compute(std::vector<Corner> corners) {
@@ -299,20 +366,25 @@ bool PolygonChart::compute(std::vector<Corner> corners) {
   if (bytes > charged_ && !memory_.add(bytes - charged_)) return false;
   charged_ = std::max(charged_, bytes);
   positions_.clear();
-  for (const Corner& c : corners_) positions_.push_back(loops_.position(c.vertex));
+  const Vec3 origin = loops_.position(corners_[0].vertex);
+  for (const Corner& c : corners_) {
+    const Vec3 p = loops_.position(c.vertex) - origin;
+    positions_.push_back({float(p.x), float(p.y), float(p.z)});
+  }
   splits_.clear();
   segments_.clear();
   gap_ = 0;
+  price_.clear();
   cost_.assign(size_t(n_) * n_, kNever);
-  number_.resize(size_t(n_) * (n_ - 1) / 2);
-  bound_.resize(n_);
+  number_.resize(size_t(n_) * n_);
+  bound_.resize(n_ + 4);
   addEdges();
   for (uint32_t length = 2; length < n_; ++length)
     if (!computeLength(length)) return false;
   best_ = kInfinity;
   if (cost_[n_ - 1] == kNever) return true;
   weighRoot();
-  const Splits& root = splits_[number_[at(0, n_ - 1)]];
+  const Splits& root = splits_[number_[n_ - 1]];
   for (uint32_t q = 0; q < kSplits; ++q) best_ = std::min(best_, double(root.cost[q]));
   return true;
 }
@@ -326,10 +398,10 @@ void PolygonChart::trace(std::vector<Triangle>& triangles) const {
   for (size_t at = 0; at < queue.size(); ++at) {
     const Open open = queue[at];
     if (open.last - open.first < 2) continue;
-    const uint32_t number = number_[this->at(open.first, open.last)];
+    const uint32_t number = number_[size_t(open.first) * n_ + open.last];
     const Splits& s = splits_[number];
     // At the root no normal is across: the angle is the same for all then.
-    const Float4 cost = s.cost + anglesTo(s, open.across);
+    const Float4 cost = costsFrom(s, open.across);
     uint32_t best = 0;
     for (uint32_t q = 1; q < kSplits; ++q)
       if (cost[q] < cost[best]) best = q;
@@ -350,7 +422,7 @@ void PolygonChart::nearBest(double mostExcess, size_t most, std::vector<Triangle
   std::vector<float> excess(kSplits * splits_.size(), kNever);
   std::vector<std::vector<uint32_t>> byLength(n_);
   std::vector<uint8_t> isReached(splits_.size(), 0);
-  const uint32_t root = number_[at(0, n_ - 1)];
+  const uint32_t root = number_[n_ - 1];
   for (uint32_t q = 0; q < kSplits; ++q)
     excess[kSplits * root + q] = splits_[root].cost[q] - float(best_);
   byLength[n_ - 1].push_back(root);
@@ -364,16 +436,16 @@ void PolygonChart::nearBest(double mostExcess, size_t most, std::vector<Triangle
         const uint32_t apex = segment.apex[q];
         triangles.push_back({e, {segment.first, apex, segment.last}});
         const Normal n{s.x[q], s.y[q], s.z[q]};
-        for (const uint32_t part :
-             {number_[at(segment.first, apex)], number_[at(apex, segment.last)]}) {
+        for (const uint32_t part : {number_[size_t(segment.first) * n_ + apex],
+                                    number_[size_t(segment.last) * n_ + apex]}) {
           const Segment& inner = segments_[part];
           if (inner.last - inner.first == 1) continue;
           const Splits& c = splits_[part];
-          const Float4 angles = anglesTo(c, n);
-          const float least = reach(c, n);
+          const Float4 costs = costsFrom(c, n);
+          const float least = std::min(std::min(costs[0], costs[1]), std::min(costs[2], costs[3]));
           bool any = false;
           for (uint32_t r = 0; r < kSplits && c.cost[r] < kNever; ++r) {
-            const float x = e + c.cost[r] + angles[r] - least;
+            const float x = e + costs[r] - least;
             float& old = excess[kSplits * size_t(part) + r];
             old = std::min(old, x);
             any = any || x <= limit;

@@ -51,7 +51,7 @@ class PolygonChart {
   static double bytesFor(double n);
 
  private:
-  static constexpr uint32_t kSplits = 4;
+  static constexpr uint32_t kSplits = 4, kRoom = 32;
   using Float4 = float __attribute__((vector_size(16)));
   /// Splits of a segment, by increasing cost, with the unit normals of their triangles.
   struct Splits {
@@ -66,39 +66,48 @@ class PolygonChart {
   struct Normal {
     float x, y, z;
   };
+  /// Apexes that are tried for a segment: costs and normals, and room for a group of four more.
+  struct Tried {
+    uint32_t count;
+    uint32_t apex[kRoom + 4];
+    float cost[kRoom + 4], x[kRoom + 4], y[kRoom + 4], z[kRoom + 4];
+  };
 
   static Splits noSplits();
-  size_t at(uint32_t first, uint32_t last) const { return size_t(last) * (last - 1) / 2 + first; }
-  Float4 anglesTo(const Splits& splits, Normal normal) const;
-  float reach(const Splits& splits, Normal normal) const;
-  void weigh(uint32_t first, uint32_t last, const uint32_t apex[4], Float4& cost,
-             Normal normal[4]) const;
-  void insert(Splits& splits, Segment& segment, float cost, Normal normal, uint32_t apex) const;
+  Float4 angles(Float4 ax, Float4 ay, Float4 az, Float4 bx, Float4 by, Float4 bz) const;
+  Float4 costsFrom(const Splits& splits, Normal normal) const;
+  void weigh(uint32_t first, uint32_t last, Tried& tried) const;
+  void choose(Tried& tried, Splits& splits, Segment& segment) const;
   float boundApexes(uint32_t first, uint32_t last);
-  void trySplits(float more, float most, float slack, Splits& splits, Segment& segment);
+  uint32_t countApexes(uint32_t count, float most) const;
+  void tryApexes(uint32_t first, uint32_t last, float most, Splits& splits, Segment& segment);
   bool split(uint32_t first, uint32_t last, Splits& splits, Segment& segment);
+  float price(uint32_t first, uint32_t last) const { return price_[last] - price_[first]; }
+  void findPrices();
   void keep(const Splits& splits, const Segment& segment);
+  static void keepLeast(std::vector<Ranked>& ranked, size_t count);
   bool computeLength(uint32_t length);
   void addEdges();
   void weighRoot();
 
   const LoopSet& loops_;
-  float areaWeight_, perimeterWeight_, angleWeight_;
+  float areaWeight_, perimeterWeight_, angle_[5];
   Work& work_;
   Charge memory_;
   uint64_t charged_ = 0;
   std::vector<Corner> corners_;
-  std::vector<Vec3> positions_;
+  std::vector<Normal> positions_;  // from the first corner
   uint32_t n_ = 0;
   double best_ = 0;
   std::vector<Splits> splits_;  // by segment
   std::vector<Segment> segments_;
   std::vector<float> cost_;       // [n^2] by first and last, and by last and first
-  std::vector<uint32_t> number_;  // by at(first, last), where the cost is finite
+  std::vector<uint32_t> number_;  // the same, where the cost is finite
   float gap_ = 0;                 // how far above the least bound splits are tried first
   float gapSum_ = 0;              // of the segments of one length: cost beyond the least bound
   std::vector<float> bound_;      // scratch
-  std::vector<uint32_t> apexes_;  // scratch
+  Tried tried_;                   // scratch
+  std::vector<float> price_;      // of the edges before each corner, once it is needed
   std::vector<Ranked> ranked_;    // scratch: by bound, first corners
 };
 

@@ -20,9 +20,10 @@ namespace {
 /// Time within which `auto` takes all triples at once, in predicted nanoseconds of native code; for two
 /// loops less, since on noisy ones the domains that the prediction leaves out take ten times as long.
 constexpr double kPatience = 3e8, kPatienceForTwo = 4e7;
-/// Vertices of one loop up to which `auto` takes the `near` space: half a second for noisy loops, two for
-/// smooth ones, natively.
-constexpr uint32_t kAutoNear = 1000;
+/// Vertices of one loop up to which `auto` takes the `near` space: about a second.
+constexpr uint32_t kAutoNear = 2000;
+/// Mean dihedral angle up to which a surface is smooth: not much is to be won beyond it.
+constexpr double kSmooth = 0.05;
 /// Vertices of one loop up to which all triples are the quickest where no angles count.
 constexpr uint32_t kPlainPolygon = 1000;
 /// Nearest neighbours of the `near` space, before it is widened.
@@ -109,7 +110,7 @@ class Spanning {
       case Space::Delaunay:
         return runDelaunay();
       case Space::Near:
-        return isPlainPolygon() && allTriplesFit() ? runAll() : runNear();
+        return isSimplerOverAll() && allTriplesFit() ? runAll() : runNear();
       case Space::Given:
         return runGiven();
       case Space::Auto:
@@ -119,8 +120,8 @@ class Spanning {
   }
 
  private:
-  /// All triples while that is quick, else near ones; Delaunay facets where those are too many or
-  /// not to be had, and the other way round where the facets hold no surface.
+  /// All triples while that is quick, else Delaunay facets; then near triples where the facets hold no
+  /// surface, or only a rough one and near ones are not too many.
   Outcome runAuto() {
     const uint32_t k = loops_.loopCount();
     // Without angles near triples of two loops are not good enough to be taken for all.
@@ -131,9 +132,31 @@ class Spanning {
     partShare_ = 0.5;
     const bool isNearQuick = isNearGood && hasNearOptimalTriples(unit_, work_) &&
                              (k > 1 || loops_.vertexCount() <= kAutoNear);
-    Outcome outcome = isNearQuick ? runNear() : runDelaunay();
-    if (outcome.status == Status::NotFound) outcome = isNearQuick ? runDelaunay() : runNear();
+    Outcome outcome = runDelaunay();
+    if (outcome.status == Status::NotFound || (outcome.ok() && isNearQuick && !isSmooth()))
+      outcome = runNearOrKeep(outcome);
     return outcome.status == Status::NotFound && allTriplesFit() ? runAll() : outcome;
+  }
+
+  /// Near triples, after a first look at the facets. What these gave is kept if the work ends before.
+  Outcome runNearOrKeep(const Outcome& first) {
+    Span facets;
+    if (first.ok()) facets = result_;
+    const Outcome outcome = runNear();
+    const bool isKept = outcome.status == Status::TooLarge || options_.bestSoFar;
+    if (outcome.ok() ? facets.found && facets.cost < result_.cost : facets.found && isKept) {
+      result_ = std::move(facets);
+      return {};
+    }
+    return outcome;
+  }
+
+  /// Whether the surface found bends so little that others cannot cost much less.
+  bool isSmooth() const {
+    if (options_.dihedralWeight == 0) return false;
+    if (options_.objective == Objective::WorstDihedral) return result_.cost <= kSmooth;
+    const double innerEdges = 0.5 * double(result_.triangles.size() - loops_.vertexCount());
+    return result_.cost <= kSmooth * options_.dihedralWeight * innerEdges;
   }
 
   /// Weights for unit_, times the power of two that brings the largest of them near 1: sums of very
@@ -177,6 +200,13 @@ class Spanning {
 
   bool looksAtAngles() const {
     return dihedralWeight_ > 0 || options_.objective == Objective::WorstDihedral;
+  }
+
+  /// Whether `near` is all triples: where no angles count these are quick for one loop, and the only
+  /// ones that are good for two (near-optimal polygons pinch at a neck, where the surface must not).
+  bool isSimplerOverAll() const {
+    return isPlainPolygon() || (loops_.loopCount() == 2 && !looksAtAngles() &&
+                                predictedTimeOfAllTriples(loops_) <= kPatience);
   }
 
   /// One loop without angles in its cost takes all triples in less time than near ones.
