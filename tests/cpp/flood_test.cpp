@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "polygon/flood.h"
+#include "polygon/triangle_mesh.h"
 #include "polygon/turn.h"
 #include "support/polygon_generators.h"
 #include "support/polygon_oracle.h"
@@ -53,6 +54,17 @@ struct Flooded {
   }
 };
 
+/// Twins on the way are those found afterwards, and the triangles are the same with them.
+void checkTwins(const Flooded& flooded) {
+  sf::Flood flood;
+  sf::Work work;
+  std::vector<uint32_t> triangles, twins, expected;
+  REQUIRE(flood.run(flooded.loops, flooded.seen, work, triangles, nullptr, &twins));
+  CHECK(triangles == flooded.triangles);
+  REQUIRE(sf::findTwins(triangles, uint32_t(flooded.loops.at.size()), work, expected));
+  CHECK(twins == expected);
+}
+
 void check(const Polygon& polygon) {
   const Flooded flooded(polygon);
   INFO(describe(polygon));
@@ -75,6 +87,7 @@ void check(const Polygon& polygon) {
     before = step.triangles;
   }
   CHECK(before == flooded.triangles.size() / 3);
+  checkTwins(flooded);
 }
 
 }  // namespace
@@ -130,6 +143,7 @@ TEST_CASE("flooding: isolated vertices are used, with two triangles more for eac
     INFO("seed ", seed);
     REQUIRE(flooded.done);
     CHECK(flooded.allPositive());
+    checkTwins(flooded);
     const size_t n = blob.polygon.vertexCount();
     CHECK(flooded.triangles.size() == 3 * (n - 2 + 2 * blob.inner.size()));
     std::vector<int> uses(n + blob.inner.size(), 0);

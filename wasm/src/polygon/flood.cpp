@@ -6,20 +6,30 @@
 namespace sf {
 
 bool Flood::run(const LinkedPolygon& loops, const Visibility& seen, Work& work,
-                std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace) {
+                std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace,
+                std::vector<uint32_t>* twins) {
+  SF_ASSERT(!twins || triangles.empty());
   Charge charge(work);
   const size_t m = loops.at.size();
   size_t bridges = 0;
   for (uint32_t v : seen.order) bridges += loops.kind[v] != VertexKind::Bottom;
-  if (!charge.add((m + 2 * bridges) * sizeof(Node))) return false;
+  const uint64_t perNode = sizeof(Node) + (twins ? sizeof(uint32_t) : 0);
+  if (!charge.add((m + 2 * bridges) * perNode)) return false;
   nodes_.resize(m + 2 * bridges);
+  twins_ = nullptr;
+  if (twins) {
+    below_.assign(m + 2 * bridges, kNone), bridges_.clear();
+    twins->resize(3 * (m + 2 * bridges));
+    twins_ = twins->data();
+  }
   // Every triangle takes one corner away; a bridge adds two.
   const size_t before = triangles.size();
   triangles.resize(before + 3 * (m + 2 * bridges));
   out_ = outBegin_ = triangles.data() + before;
   trace_ = trace;
   const bool done = begin(loops, seen, work) && floodGorges(work);
-  triangles.resize(before + size_t(out_ - outBegin_));
+  triangles.resize(before + nextHalf());
+  if (twins) twins->resize(nextHalf());
   return done;
 }
 
@@ -113,14 +123,7 @@ bool Flood::raiseLeft(uint32_t v) {
     apex.kind = VertexKind::Unused;
   else if (apex.kind != VertexKind::Top)
     return false;
-  uint32_t c = chain_.left;
-  while (c != chain_.right) {
-    const uint32_t d = nodes_[c].next;
-    if (!(turn(apex.at, nodes_[c].at, nodes_[d].at) > 0)) break;
-    emit(apex, nodes_[c], nodes_[d]);
-    c = d;
-  }
-  link(v, c);
+  wedgeAhead(v, chain_.left, chain_.right);
   chain_.left = chain_.highest = v;
   note(FloodAction::Raise);
   return true;
@@ -132,23 +135,68 @@ bool Flood::raiseRight(uint32_t v) {
     apex.kind = VertexKind::Unused;
   else if (apex.kind != VertexKind::Top)
     return false;
-  uint32_t c = chain_.right;
-  while (c != chain_.left) {
-    const uint32_t d = nodes_[c].prev;
-    if (!(turn(nodes_[d].at, nodes_[c].at, apex.at) > 0)) break;
-    emit(nodes_[d], nodes_[c], apex);
-    c = d;
-  }
-  link(c, v);
+  wedgeBehind(v, chain_.right, chain_.left);
   chain_.right = chain_.highest = v;
   note(FloodAction::Raise);
   return true;
 }
 
+/// The triangles that v sees of the chain from c on to `end`; v is linked to what they leave of it.
+void Flood::wedgeAhead(uint32_t v, uint32_t c, uint32_t end) {
+  const Node& apex = nodes_[v];
+  while (c != end) {
+    const uint32_t d = nodes_[c].next;
+    if (!(turn(apex.at, nodes_[c].at, nodes_[d].at) > 0)) break;
+    if (twins_) {
+      const uint32_t h = nextHalf();
+      pair(h, below_[v]), pair(h + 1, below_[c]);
+      below_[v] = h + 2;
+    }
+    emit(apex, nodes_[c], nodes_[d]);
+    c = d;
+  }
+  link(v, c);
+}
+
+/// The same for the chain from c back to `end`.
+void Flood::wedgeBehind(uint32_t v, uint32_t c, uint32_t end) {
+  const Node& apex = nodes_[v];
+  while (c != end) {
+    const uint32_t d = nodes_[c].prev;
+    if (!(turn(nodes_[d].at, nodes_[c].at, apex.at) > 0)) break;
+    if (twins_) {
+      const uint32_t h = nextHalf();
+      pair(h, below_[d]), pair(h + 1, below_[c]);
+      below_[d] = h + 2;
+    }
+    emit(nodes_[d], nodes_[c], apex);
+    c = d;
+  }
+  link(c, v);
+}
+
 void Flood::fill(uint32_t ceiling) {
-  for (uint32_t c = chain_.left; c != chain_.right; c = nodes_[c].next)
+  for (uint32_t c = chain_.left; c != chain_.right; c = nodes_[c].next) {
+    if (twins_) {
+      const uint32_t h = nextHalf();
+      pair(h, below_[ceiling]), pair(h + 1, below_[c]);
+      below_[ceiling] = h + 2;
+    }
     emit(nodes_[ceiling], nodes_[c], nodes_[nodes_[c].next]);
+  }
+  if (twins_) pair(below_[ceiling], below_[chain_.right]);
   note(FloodAction::Fill);
+}
+
+/// Notes the twin of h, which is what lies below a link.
+void Flood::pair(uint32_t h, uint32_t below) {
+  if (below >= kBridge && below != kNone) {
+    uint32_t& other = bridges_[below - kBridge];
+    below = other;
+    other = h;
+  }
+  twins_[h] = below;
+  if (below != kNone) twins_[below] = h;
 }
 
 /// Joins the sag to the highest vertex of the chain, both ways. The gorge to the left goes on, the
@@ -164,6 +212,7 @@ bool Flood::bridge(uint32_t sag) {
   const uint32_t high = chain_.highest, afterHigh = nodes_[high].next, afterSag = nodes_[sag].next;
   // Sags are kept under nodes of left banks, which therefore stay themselves.
   const uint32_t highOnRight = copyOf(high), sagOnLeft = copyOf(sag);
+  if (twins_) below_[high] = below_[sag] = newBridge();
   link(high, sagOnLeft), link(sagOnLeft, afterSag);
   link(sag, highOnRight), link(highOnRight, afterHigh);
   nodes_[sag].kind = VertexKind::LeftBank, nodes_[sagOnLeft].kind = VertexKind::RightBank;
@@ -178,26 +227,12 @@ bool Flood::bridge(uint32_t sag) {
 void Flood::bridgeIsland(uint32_t sag) {
   const uint32_t high = chain_.highest, afterHigh = nodes_[high].next;
   const uint32_t highOnRight = copyOf(high);
+  if (twins_) below_[high] = below_[sag] = newBridge();
   if (high == chain_.right) chain_.right = highOnRight;
   link(highOnRight, afterHigh);
-  Node& apex = nodes_[sag];
-  apex.kind = VertexKind::Unused;
-  uint32_t c = high;
-  while (c != chain_.left) {
-    const uint32_t d = nodes_[c].prev;
-    if (!(turn(nodes_[d].at, nodes_[c].at, apex.at) > 0)) break;
-    emit(nodes_[d], nodes_[c], apex);
-    c = d;
-  }
-  link(c, sag);
-  c = highOnRight;
-  while (c != chain_.right) {
-    const uint32_t d = nodes_[c].next;
-    if (!(turn(apex.at, nodes_[c].at, nodes_[d].at) > 0)) break;
-    emit(apex, nodes_[c], nodes_[d]);
-    c = d;
-  }
-  link(sag, c);
+  nodes_[sag].kind = VertexKind::Unused;
+  wedgeBehind(sag, high, chain_.left);
+  wedgeAhead(sag, highOnRight, chain_.right);
   chain_.highest = sag;
   note(FloodAction::Bridge);
 }
@@ -214,17 +249,24 @@ void Flood::spill(uint32_t top, bool left) {
   note(FloodAction::Spill);
 }
 
+/// What lies below both sides of a bridge.
+uint32_t Flood::newBridge() {
+  bridges_.push_back(kNone);
+  return kBridge + uint32_t(bridges_.size()) - 1;
+}
+
 uint32_t Flood::copyOf(uint32_t v) {
   const uint32_t copy = uint32_t(used_++);
   nodes_[copy] = nodes_[v];
   nodes_[copy].sag = nodes_[copy].jump = kNone;
+  if (twins_) below_[copy] = below_[v];
   return copy;
 }
 
 void Flood::note(FloodAction action) {
   if (!trace_) return;
-  trace_->push_back({uint32_t(action), nodes_[chain_.left].node, nodes_[chain_.right].node,
-                     uint32_t(out_ - outBegin_) / 3});
+  trace_->push_back(
+      {uint32_t(action), nodes_[chain_.left].node, nodes_[chain_.right].node, nextHalf() / 3});
 }
 
 }  // namespace sf

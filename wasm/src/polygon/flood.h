@@ -25,10 +25,13 @@ class Flood {
   /// positive.
   ///   loops, seen  as PlaneSweep::run leaves them; they are read only
   ///   trace        if not null, gets the actions, with nodes for vertices
+  ///   twins        if not null, is set to what findTwins (triangle_mesh.h) finds of these triangles;
+  ///                `triangles` has to be empty then
   /// False, after a forbidden state, only for loops that no sweep has passed; or once `work` is to
   /// end. O(m) time and memory; the memory is kept, and charged during the call.
   bool run(const LinkedPolygon& loops, const Visibility& seen, Work& work,
-           std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace);
+           std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace,
+           std::vector<uint32_t>* twins = nullptr);
 
  private:
   /// A corner of what is not flooded yet. 40 bytes, read together.
@@ -53,16 +56,22 @@ class Flood {
   Step step();
   bool raiseLeft(uint32_t v);
   bool raiseRight(uint32_t v);
+  void wedgeAhead(uint32_t v, uint32_t c, uint32_t end);
+  void wedgeBehind(uint32_t v, uint32_t c, uint32_t end);
   void fill(uint32_t ceiling);
   bool bridge(uint32_t sag);
   void bridgeIsland(uint32_t sag);
   void spill(uint32_t top, bool left);
   uint32_t copyOf(uint32_t v);
+  uint32_t newBridge();
   void link(uint32_t from, uint32_t to) { nodes_[from].next = to, nodes_[to].prev = from; }
   void emit(const Node& a, const Node& b, const Node& c) {
     out_[0] = a.node, out_[1] = b.node, out_[2] = c.node;
     out_ += 3;
   }
+  void pair(uint32_t h, uint32_t below);
+  /// The first half-edge of the next triangle.
+  uint32_t nextHalf() const { return uint32_t(out_ - outBegin_); }
   void note(FloodAction action);
 
   std::vector<Node> nodes_;
@@ -73,6 +82,14 @@ class Flood {
   Chain chain_{};
   uint32_t *out_ = nullptr, *outBegin_ = nullptr;
   std::vector<FloodStep>* trace_ = nullptr;
+
+  // For twins, if they are wanted.
+  uint32_t* twins_ = nullptr;
+  // For each node what lies below the link to the next one: the half-edge of a triangle, kNone at the
+  // loops, or kBridge + i for a bridge, of which bridges_[i] is the half-edge on the side that was
+  // flooded first.
+  static constexpr uint32_t kBridge = 1u << 31;
+  std::vector<uint32_t> below_, bridges_;
 };
 
 }  // namespace sf

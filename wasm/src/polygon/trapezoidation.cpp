@@ -4,7 +4,6 @@
 
 #include "base/charge.h"
 #include "base/predicates.h"
-#include "polygon/delaunay_insertion.h"
 #include "polygon/insertion_order.h"
 
 namespace sf {
@@ -207,8 +206,8 @@ bool TrapezoidTriangulator::improve(const LinkedPolygon& linked, const Visibilit
     if (mesh_.twins[h] != kNone && h < mesh_.twins[h]) edges_.push_back(h);
   const uint32_t budget = uint32_t(flips * double(mesh_.corners.size() / 3));
   const uint32_t left = legalize(mesh_, edges_, budget, work);
-  if (budget > 0 && left == 0 && delaunayByInsertion(linked, work, mesh_.corners))
-    return findTwins(mesh_.corners, nodes, work, mesh_.twins);
+  if (budget > 0 && left == 0 && !delaunay_.run(linked, false, work, mesh_.corners, mesh_.twins))
+    return false;
   return work.going() && insertIslands(linked, seen, work);
 }
 

@@ -29,6 +29,7 @@
 #include <vector>
 
 #include "base/work.h"
+#include "polygon/constrained_delaunay.h"
 #include "polygon/polygon.h"
 #include "polygon/strip_flips.h"
 #include "polygon/sweep.h"
@@ -68,8 +69,8 @@ class TrapezoidTriangulator {
   /// Appends the triangles, as nodes, counter-clockwise and of positive area, to `triangles`.
   /// Islands are vertices of them. False when the work ended.
   ///   seen       of all nodes, not of sags alone
-  ///   flips      how many flips a triangle are tried to improve angles, before all vertices are
-  ///              rather inserted into a Delaunay triangulation; 0 leaves the u-trees' triangles
+  ///   flips      how many flips a triangle are tried to improve angles, before the triangles are
+  ///              rather merged to Delaunay ones; 0 leaves the u-trees' triangles
   ///   forStrips  whether some edges are flipped so that strips get longer, at a small loss in
   ///              angles
   bool triangulate(const LinkedPolygon& linked, const Visibility& seen, double flips,
@@ -84,6 +85,7 @@ class TrapezoidTriangulator {
   UniMonotonePolygons polygons_;
   UTree tree_;
   TriangleMesh mesh_;
+  ConstrainedDelaunay delaunay_;
   StripFlips stripFlips_;
   std::vector<uint32_t> edges_;
   std::vector<uint32_t> islands_;

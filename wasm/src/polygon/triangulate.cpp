@@ -5,7 +5,7 @@
 #include "base/charge.h"
 #include "polygon/certificate.h"
 #include "polygon/complement.h"
-#include "polygon/delaunay_flips.h"
+#include "polygon/constrained_delaunay.h"
 #include "polygon/flood.h"
 #include "polygon/link_rings.h"
 #include "polygon/repair.h"
@@ -38,11 +38,12 @@ struct PolygonTriangulator::State {
   PlaneSweep sweep;
   Flood flood;
   TrapezoidTriangulator trapezoids;
-  DelaunayFlips flips;
+  ConstrainedDelaunay delaunay;
   LinkedPolygon loops, outerLoops;
   Visibility seen, outside;
   Certificate certificate;
-  std::vector<uint32_t> nodes, starts;
+  std::vector<uint32_t> nodes, twins, starts;
+  bool isSimple = false;  // the polygon is one ring that does not touch itself
 
   Outcome append(const PolygonView& polygon, const PolygonOptions& options, Work& work,
                  std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace);
@@ -62,13 +63,17 @@ bool PolygonTriangulator::State::triangulateLoops(const PolygonOptions& options,
                                                   std::vector<uint32_t>& triangles,
                                                   std::vector<FloodStep>* trace) {
   const bool flooding = options.method == PolygonMethod::Flooding;
-  const auto run = [&](std::vector<uint32_t>& to) {
-    return flooding ? flood.run(loops, seen, work, to, trace)
-                    : trapezoids.triangulate(loops, seen, kFlips, options.strips, work, to);
-  };
-  if (!options.delaunay) return run(triangles);
+  if (!options.delaunay)
+    return flooding ? flood.run(loops, seen, work, triangles, trace)
+                    : trapezoids.triangulate(loops, seen, kFlips, options.strips, work, triangles);
   nodes.clear();
-  if (!run(nodes) || !flips.run(loops, work, nodes)) return false;
+  if (flooding) {
+    if (!flood.run(loops, seen, work, nodes, trace, &twins)) return false;
+  } else {
+    if (!trapezoids.triangulate(loops, seen, kFlips, options.strips, work, nodes)) return false;
+    if (!findTwins(nodes, uint32_t(loops.at.size()), work, twins)) return false;
+  }
+  if (!delaunay.run(loops, isSimple, work, nodes, twins)) return false;
   triangles.insert(triangles.end(), nodes.begin(), nodes.end());
   return true;
 }
@@ -89,6 +94,7 @@ Outcome PolygonTriangulator::State::append(const PolygonView& polygon,
   const bool sagsOnly = options.method == PolygonMethod::Flooding;
   outcome = sweep.run(polygon, sagsOnly, work, loops, seen);
   if (!outcome.ok()) return outcome;
+  isSimple = polygon.starts.size() == 2 && polygon.points.empty() && sweep.isPlain();
   bool done = triangulateLoops(options, work, triangles, trace);
   if (done && loops.at.size() > n) {
     for (size_t i = before; i < triangles.size(); ++i) triangles[i] = loops.vertex[triangles[i]];

@@ -1,4 +1,4 @@
-// Constrained Delaunay triangles by flips: exact areas, the criterion at every edge, stable ties.
+// Constrained Delaunay triangles: exact areas, the criterion at every edge, stable ties.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <map>
 
 #include "base/predicates.h"
-#include "polygon/delaunay_flips.h"
+#include "polygon/constrained_delaunay.h"
 #include "polygon/triangulate.h"
 #include "support/polygon_generators.h"
 #include "support/polygon_oracle.h"
@@ -59,7 +59,7 @@ std::vector<std::vector<uint32_t>> sorted(const std::vector<uint32_t>& triangles
 
 }  // namespace
 
-TEST_CASE("delaunay flips: every edge is legal, and the polygon covered exactly") {
+TEST_CASE("constrained delaunay: every edge is legal, and the polygon covered exactly") {
   int before = 0;
   for (uint32_t seed = 1; seed <= 800; ++seed) {
     Random random(seed);
@@ -74,7 +74,7 @@ TEST_CASE("delaunay flips: every edge is legal, and the polygon covered exactly"
   CHECK(before > 1000);
 }
 
-TEST_CASE("delaunay flips: rings that touch are covered exactly too") {
+TEST_CASE("constrained delaunay: rings that touch are covered exactly too") {
   for (uint32_t seed = 1; seed <= 400; ++seed) {
     Random random(seed);
     const Polygon polygon = latticeRegion(3 + seed % 6, 4 + seed % 40, false, true, random);
@@ -84,7 +84,7 @@ TEST_CASE("delaunay flips: rings that touch are covered exactly too") {
   }
 }
 
-TEST_CASE("delaunay flips: without ties the triangles do not depend on the method") {
+TEST_CASE("constrained delaunay: without ties the triangles do not depend on the method") {
   for (uint32_t seed = 1; seed <= 60; ++seed) {
     Random random(seed);
     const Polygon polygon = seed % 2 ? polygonOf({partitionRing(20 + 10 * seed, random)})
@@ -95,7 +95,7 @@ TEST_CASE("delaunay flips: without ties the triangles do not depend on the metho
   }
 }
 
-TEST_CASE("delaunay flips: points on one circle stay as they were") {
+TEST_CASE("constrained delaunay: points on one circle stay as they were") {
   const Polygon polygon = polygonOf({{{5, 0},
                                       {4, 3},
                                       {3, 4},
@@ -116,7 +116,7 @@ TEST_CASE("delaunay flips: points on one circle stay as they were") {
   CHECK(illegalEdges(grid, once) == 0);
 }
 
-TEST_CASE("delaunay flips: a smooth curve, where flips alone would be O(n) a vertex") {
+TEST_CASE("constrained delaunay: a smooth curve, where flips would be O(n) a vertex") {
   Random random(4);
   const Polygon polygon = polygonOf({blobRing(3000, random)});
   const std::vector<uint32_t> triangles = triangulate(polygon, true).triangles;
@@ -124,7 +124,7 @@ TEST_CASE("delaunay flips: a smooth curve, where flips alone would be O(n) a ver
   CHECK(illegalEdges(polygon, triangles) == 0);
 }
 
-TEST_CASE("delaunay flips: coordinates of any magnitude keep their triangles") {
+TEST_CASE("constrained delaunay: coordinates of any magnitude keep their triangles") {
   Random random(6);
   const Polygon polygon = polygonOf({partitionRing(120, random)});
   const auto expected = sorted(triangulate(polygon, true).triangles);
@@ -133,4 +133,81 @@ TEST_CASE("delaunay flips: coordinates of any magnitude keep their triangles") {
     CHECK(sorted(triangulate(scaledBy(polygon, std::ldexp(1, exponent)), true).triangles) ==
           expected);
   }
+}
+
+TEST_CASE("constrained delaunay: holes and isolated points, where merges could meet themselves") {
+  constexpr uint32_t kSeed = 4300;
+  CAPTURE(kSeed);
+  Random random(kSeed);
+  for (int instance = 0; instance < 60; ++instance) {
+    CAPTURE(instance);
+    const Polygon polygon = instance % 2 == 0
+                                ? holeGrid(1 + random.below(6), 1 + random.below(6), false, random)
+                                : starsInHoles(2, 2, 5 + random.below(20), random);
+    const std::vector<uint32_t> triangles = triangulate(polygon, true).triangles;
+    CHECK(faultOfTriangulation(polygon, triangles) == "");
+    CHECK(illegalEdges(polygon, triangles) == 0);
+  }
+  for (const double scale : {1.0, 0x1p480, 0x1p-480}) {
+    CAPTURE(scale);
+    GriddedBlob blob = blobWithGrid(60, 12, random);
+    std::vector<double> points;
+    Polygon all = scaledBy(blob.polygon, scale);
+    const Polygon polygon = all;
+    for (const Point p : blob.inner) points.insert(points.end(), {p.x * scale, p.y * scale});
+    all.positions.insert(all.positions.end(), points.begin(), points.end());
+    sf::PolygonOptions options;
+    options.delaunay = true;
+    sf::PolygonTriangulation result;
+    sf::Work work;
+    REQUIRE(
+        sf::triangulatePolygon({polygon.positions, polygon.starts, points}, options, work, result)
+            .ok());
+    CHECK(result.triangles.size() / 3 == polygon.vertexCount() - 2 + 2 * blob.inner.size());
+    if (scale == 1) CHECK(illegalEdges(all, result.triangles) == 0);
+  }
+}
+
+TEST_CASE("constrained delaunay: every family is covered, every edge legal") {
+  Random random(4304);
+  for (const Polygon& polygon :
+       {polygonOf({spiralRing(400, 5)}), polygonOf({kochRing(4)}),
+        polygonOf({combRing(100, random)}), polygonOf({doubleCombRing(60, random)}),
+        polygonOf({interleavedCombRing(60, random)}), polygonOf({blobRing(500, random)}),
+        polygonOf({zigzagRing(300, random)}), polygonOf({fanRing(300, random)}),
+        polygonOf({staircaseRing(100)}), polygonOf({regularRing(200, 1, {0, 0})})}) {
+    const std::vector<uint32_t> triangles = triangulate(polygon, true).triangles;
+    CHECK(faultOfTriangulation(polygon, triangles) == "");
+    CHECK(illegalEdges(polygon, triangles) == 0);
+  }
+}
+
+TEST_CASE(
+    "constrained delaunay: magnitudes too far apart for exact circles are covered all the same") {
+  const Polygon polygon = polygonOf({{{-0x1p-300, 0},
+                                      {0x1p-301, 0x1p-300},
+                                      {0x1p490, 0x1p480},
+                                      {0x1p491, 0x1p492},
+                                      {-0x1p489, 0x1p488}}});
+  CHECK(faultOfTriangulation(polygon, triangulate(polygon, true).triangles) == "");
+}
+
+TEST_CASE("constrained delaunay: memory beyond the limit is told, and work that ends") {
+  Random random(4305);
+  const Polygon polygon = polygonOf({blobRing(2000, random)});
+  sf::PolygonOptions options;
+  options.delaunay = true;
+  sf::PolygonTriangulation result;
+  for (const size_t limit : {size_t(200'000), size_t(300'000)}) {
+    sf::Work little(limit, nullptr, nullptr);
+    const sf::Outcome outcome =
+        sf::triangulatePolygon({polygon.positions, polygon.starts, {}}, options, little, result);
+    CHECK(outcome.status == sf::Status::OutOfMemory);
+    CHECK(little.used() == 0);
+  }
+  sf::Work stopped(
+      size_t(-1), [](void*, double, double, double) { return false; }, nullptr);
+  const Polygon large = polygonOf({blobRing(20'000, random)});
+  CHECK(sf::triangulatePolygon({large.positions, large.starts, {}}, options, stopped, result)
+            .status == sf::Status::Stopped);
 }

@@ -1,0 +1,68 @@
+// Constrained Delaunay triangles from any triangles of a polygon.
+//
+// At first every edge between triangles is fixed. Then they are given up one after the other, those
+// between neighbours in the list of triangles first, those between its halves last; each time the
+// triangles to the left and to the right of the edge, constrained Delaunay by themselves, are merged.
+// All that a merge makes crosses the edge, from one end to the other: a circle that rises along the
+// edge finds them in that order, and meets nothing that it would have to take back.
+//
+// Source: Guibas, Stolfi 1985, "Primitives for the manipulation of general subdivisions and the
+// computation of Voronoi diagrams", sec. 9, for the merge; Chew 1989, "Constrained Delaunay
+// triangulations", for merges between fixed edges; Lawson 1977, "Software for C1 surface
+// interpolation", for flips.
+// Differs: parts are separated by an edge that both have, not by a line, so that the circle starts at
+// its end. Where both sides are connected elsewhere, around a hole or an isolated point, they could
+// have a triangle in common: there, flips. Flips alone, all edges at once, take O(n) a vertex on
+// smooth curves, since water leaves thin triangles side by side.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "base/work.h"
+#include "polygon/polygon.h"
+
+namespace sf {
+
+class ConstrainedDelaunay {
+ public:
+  /// Makes the triangles constrained Delaunay: no node that a triangle sees past none of the loops'
+  /// edges lies inside its circle, by exact incircle for coordinates in the range of the predicates.
+  ///   simple     whether the loops are one loop that does not touch itself, without islands
+  ///   triangles  [3m] nodes, a triangulation of the loops; m stays
+  ///   twins      [3m] as of findTwins (triangle_mesh.h); changed likewise
+  /// Triangles that are Delaunay stay, also where more than three nodes lie on one circle.
+  /// False, and both lists undefined, once `work` is to end. O(n log n) time for all but unnatural
+  /// polygons; memory is charged, and kept for the next call.
+  bool run(const LinkedPolygon& loops, bool simple, Work& work, std::vector<uint32_t>& triangles,
+           std::vector<uint32_t>& twins);
+
+ private:
+  /// An edge of the border of what a merge has taken away: from the vertex of the one below it in the
+  /// list to `vertex`; `outer` is the twin of what will come to lie on it.
+  struct Border {
+    uint32_t vertex, outer;
+  };
+
+  uint32_t fixEdges();
+  bool giveUpEdges(uint32_t count, bool simple, Work& work);
+  bool isIllegal(uint32_t h) const;
+  uint32_t merge(uint32_t h);
+  void takeLeft(uint32_t left, uint32_t right);
+  void takeRight(uint32_t left, uint32_t right);
+  uint32_t create(uint32_t a, uint32_t b, uint32_t c);
+  void setTwin(uint32_t h, uint32_t g);
+  uint32_t flipFrom(uint32_t h);
+  uint32_t partOf(uint32_t t);
+
+  uint32_t *corners_ = nullptr, *twins_ = nullptr;
+  uint32_t count_ = 0;
+  const Point2 *at_ = nullptr, *metric_ = nullptr;
+  bool isExact_ = true;  // the circles of `metric` are those of `at`
+  std::vector<Point2> scaled_;
+  std::vector<uint32_t> halves_;  // the half-edges of fixed edges, in the order of giving up
+  std::vector<Border> left_, right_;
+  std::vector<uint32_t> free_;  // triangles taken away
+  std::vector<uint32_t> stack_, parts_;
+};
+
+}  // namespace sf
