@@ -2,12 +2,18 @@
 // Inputs come from the generators of tests/support, or are curve files on which the program of the
 // paper's authors was measured.
 import {
+  add,
   closedSurface,
+  closedWalk,
+  harmonicLoop,
   manySaddles,
   meshLoops,
   monkeySaddle,
   Random,
+  randomLoops,
   regularSaddles,
+  scale,
+  withNoise,
   type Loop,
 } from '../support/generators.ts';
 
@@ -95,6 +101,7 @@ const kGoals: Goals = {
   '2x250 delaunay dihedral': [0.5, 60],
   '3x60 delaunay dihedral': [0.2, 40],
   '6x10 delaunay dihedral': [2, 200],
+  '1x2000 near default': [1, 250],
 };
 
 function withGoal(size: string, space: Space, weighing: Weighing): Partial<Case> {
@@ -141,6 +148,14 @@ function meshCases(): Case[] {
       return make('mesh', size, generated(`mesh_${size}`, loops), space, weighing);
     }),
   );
+}
+
+/** A long noisy loop, for which all triples are too many. */
+function noisyCases(): Case[] {
+  const random = new Random(500);
+  const loop = withNoise(harmonicLoop(2000, 4, random), 0.5, random);
+  const input = generated('noisy_2000', [loop]);
+  return [make('noisy', '1x2000', input, 'near', 'default', withGoal('1x2000', 'near', 'default'))];
 }
 
 /** Many loops: the best surface within limits of time and memory. */
@@ -202,6 +217,7 @@ export const allCases = (): Case[] => [
   ...saddles(6, 'delaunay', [4, 6, 8, 10]),
   ...[2, 3, 4, 5, 6].flatMap((pose) => saddles(6, 'delaunay', [10], pose)),
   ...meshCases(),
+  ...noisyCases(),
   ...manyLoops(),
   ...committedCases(),
 ];
@@ -216,6 +232,33 @@ export function optimalityLoops(kind: 'single' | 'pairs', count: number): Loop[]
     const mesh = closedSurface(kind === 'single' ? 4 : 3, random);
     const size = () => (kind === 'single' ? 100 + random.below(101) : 10 + random.below(11));
     return meshLoops(mesh, kind === 'single' ? [size()] : [size(), size()], random);
+  });
+}
+
+/** Noisy loops of four kinds, single ones of 100 to 400 vertices or pairs of 10 to 20 each: on these the
+ * `near` space is compared with all triples. */
+export function noisyLoops(kind: 'single' | 'pairs', count: number): Loop[][] {
+  return Array.from({ length: count }, (_, i) => {
+    const random = new Random(600 + i);
+    const noise = random.range(0.1, 1);
+    const single = kind === 'single';
+    const size = () => (single ? 100 + random.below(301) : 10 + random.below(11));
+    const sizes = single ? [size()] : [size(), size()];
+    const harmonic = (n: number) => withNoise(harmonicLoop(n, single ? 4 : 2, random), noise, random);
+    switch (i % 4) {
+      case 0:
+        return meshLoops(closedSurface(single ? 5 : 3, random), sizes, random);
+      case 1: {
+        const apart = scale(random.range(0.3, 2), random.direction());
+        return sizes.map((n, k) => harmonic(n).map((p) => add(p, scale(k, apart))));
+      }
+      case 2:
+        return single
+          ? [withNoise(monkeySaddle(sizes[0]), noise, random)]
+          : regularSaddles(2, sizes[0], random).map((loop) => withNoise(loop, noise, random));
+      default:
+        return single ? [closedWalk(sizes[0], random)] : randomLoops(sizes, noise, random);
+    }
   });
 }
 

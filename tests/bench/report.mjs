@@ -205,6 +205,30 @@ export function optimalityLines(suites) {
   return lines;
 }
 
+const kNearGoal = { ratio: 1.02, share: 0.95, time: 0.05 };
+
+/** The `near` space against all triples on noisy loops: costs, and the time of all of them together. */
+export function nearLines(suites) {
+  const words = ['loops', '≤ 1.02', '95 %', 'most', 'time'].map((word) => right(word, 8));
+  const lines = [`${left('near against all triples', kCaseWidth)} ${words.join('')}`];
+  const sum = (rows, space) => rows.reduce((total, r) => total + r[space].seconds, 0);
+  for (const [kind, rows] of Object.entries(suites)) {
+    for (const weight of [...new Set(rows.map((r) => r.weight))]) {
+      const chosen = rows.filter((r) => r.weight === weight);
+      const ratios = chosen.map(({ near, all }) => (near.cost ?? Infinity) / all.cost);
+      const good = ratios.filter((ratio) => ratio <= kNearGoal.ratio).length / ratios.length;
+      const spent = sum(chosen, 'near') / sum(chosen, 'all');
+      const percent = (value) => `${(100 * value).toFixed(1)} %`;
+      const [most, all] = [0.95, 1].map((share) => quantile(ratios, share).toFixed(4));
+      const cells = [chosen.length, percent(good), most, all, percent(spent)];
+      const isMet = good >= kNearGoal.share && spent <= kNearGoal.time;
+      const shown = cells.map((cell) => right(cell, 8)).join('');
+      lines.push(`${left(`${kind} ${weight}`, kCaseWidth)} ${shown}  ${verdict(isMet)}`);
+    }
+  }
+  return lines;
+}
+
 /** What is spanned and how, as the first cells of a row in Markdown. */
 function described({ k, n, space, objective, weights }) {
   const size = Number.isInteger(n / k) ? `${k} × ${grouped(n / k)}` : `${k}, ${n} in all`;

@@ -141,6 +141,38 @@ export const randomLoops = (sizes: readonly number[], apart: number, random: Ran
 export const noisyCircle = (n: number, noise: number, random: Random): Loop =>
   circle(n).map((p) => add(p, random.inCube(noise)));
 
+/** Each point moved by up to `noise` mean edge lengths. */
+export function withNoise(loop: Loop, noise: number, random: Random): Loop {
+  const length = (p: Point, i: number): number =>
+    Math.hypot(...subtract(loop[(i + 1) % loop.length], p));
+  const mean = loop.reduce((sum, p, i) => sum + length(p, i), 0) / loop.length;
+  return loop.map((p) => add(p, random.inCube(noise * mean)));
+}
+
+/** A smooth closed curve: a sum of `harmonics` random waves, the higher ones the smaller. */
+export function harmonicLoop(n: number, harmonics: number, random: Random): Loop {
+  const waves = Array.from({ length: harmonics }, (_, h): [Point, Point] => [
+    scale(1 / (h + 1), random.inCube(1)),
+    scale(1 / (h + 1), random.inCube(1)),
+  ]);
+  return Array.from({ length: n }, (_, i) => {
+    const t = (2 * Math.PI * i) / n;
+    return waves.reduce<Point>(
+      (p, [a, b], h) =>
+        add(p, add(scale(Math.cos((h + 1) * t), a), scale(Math.sin((h + 1) * t), b))),
+      [0, 0, 0],
+    );
+  });
+}
+
+/** A random walk of unit steps that ends where it began. */
+export function closedWalk(n: number, random: Random): Loop {
+  const steps = Array.from({ length: n }, () => random.direction());
+  const drift = scale(1 / n, steps.reduce(add));
+  let p: Point = [0, 0, 0];
+  return steps.map((step) => (p = add(p, subtract(step, drift))));
+}
+
 const unit = (a: Point): Point => scale(1 / Math.hypot(...a), a);
 
 /** k saddle curves facing outward at the corners of a cube (k ≤ 8) or an icosahedron (k ≤ 12), as

@@ -1,7 +1,7 @@
 // npm run bench [-- filter… | --figures | --draw]: measures the cases of tests/bench, natively and in
 // WebAssembly in the same run, and writes the results as JSON into the build tree.
 //   filter     only the cases whose name holds all these words
-//   --figures  all cases and the optimality suite; then draws the figures and the README's table anew
+//   --figures  all cases and the suites of smaller spaces; then draws the figures and the README's table anew
 //   --draw     draws them from the last results
 // npm run bench -- polygons [filter…]: triangulators of polygons, ours and others.
 import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
@@ -15,6 +15,7 @@ import {
   fitSeries,
   goalLines,
   kHeading,
+  nearLines,
   optimalityLines,
   readmeTable,
   row,
@@ -81,13 +82,12 @@ async function measureDrag(loops) {
   return JSON.parse((await run(process.execPath, args, { capture: true })).output);
 }
 
-/** Costs, not times: a process for each processor. */
-async function measureOptimality(loopSets, name) {
+/** Costs in the candidate spaces. Where times do not matter a process for each processor. */
+async function measureOptimality(loopSets, name, weights, count = 1) {
   const files = loopSets.map((loops, i) => writeCurves(`${name}_${i}`, loops));
-  const count = availableParallelism();
   const shares = Array.from({ length: count }, (_, part) => files.filter((_, i) => i % count === part));
   const program = path.join(bench, 'optimality.bench.mjs');
-  const runs = shares.map((share) => run(process.execPath, [program, ...share], { capture: true }));
+  const runs = shares.map((share) => run(process.execPath, [program, weights, ...share], { capture: true }));
   return (await Promise.all(runs)).flatMap(({ output }) => JSON.parse(output));
 }
 
@@ -100,7 +100,7 @@ async function measure(words, wantsAll) {
   await buildPreset('native-release');
   await buildLibrary();
   mkdirSync(folder, { recursive: true });
-  const { allCases, dragLoops, optimalityLoops, pictureLoops } = await import(
+  const { allCases, dragLoops, noisyLoops, optimalityLoops, pictureLoops } = await import(
     pathToFileURL(await compiled('cases')).href
   );
   const found = { node: process.versions.node, processors: availableParallelism(), load: [loadavg()[0]] };
@@ -121,9 +121,17 @@ async function measure(words, wantsAll) {
   if (wantsAll || (words.length > 0 && wanted('optimality'))) {
     found.optimality = {};
     for (const kind of ['single', 'pairs']) {
-      found.optimality[kind] = await measureOptimality(optimalityLoops(kind, 100), `optimality_${kind}`);
+      const [loops, name] = [optimalityLoops(kind, 100), `optimality_${kind}`];
+      found.optimality[kind] = await measureOptimality(loops, name, 'area,dihedral', found.processors);
     }
     print('', optimalityLines(found.optimality));
+  }
+  if (wantsAll || (words.length > 0 && wanted('near noisy'))) {
+    found.near = {
+      single: await measureOptimality(noisyLoops('single', 60), 'noisy_single', 'default,dihedral'),
+      pairs: await measureOptimality(noisyLoops('pairs', 60), 'noisy_pair', 'default,dihedral,area'),
+    };
+    print('', nearLines(found.near));
   }
   found.pictures = pictureLoops().map((loops, i) => writeCurves(`picture_${i}`, loops));
   found.load.push(loadavg()[0]);
@@ -131,7 +139,7 @@ async function measure(words, wantsAll) {
   const load = found.load.map((l) => l.toFixed(1)).join(' to ');
   say(`\nLoad ${load} on ${found.processors} processors, Node ${found.node}.`);
   say(`Written: ${path.relative(root, results)}`);
-  if (chosen.length === 0 && !found.drag && !found.optimality) {
+  if (chosen.length === 0 && !found.drag && !found.optimality && !found.near) {
     throw new Failure('No case has that name.');
   }
   const isBroken = (c) => [c.native, c.wasm].some((side) => side?.problem === 'FAILED');
