@@ -1,6 +1,6 @@
 // The test suites: each runs one tool and counts what its machine-readable report says.
 // A suite that crashes or that runs no test has failed.
-import { existsSync, mkdirSync, readFileSync, rmSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { createServer } from 'node:net';
 import path from 'node:path';
 import { buildRoot, root, run, runTool } from './run.mjs';
@@ -92,6 +92,38 @@ function describeDoctestCase(text) {
   const exception = /<Exception[^>]*>([\s\S]*?)<\/Exception>/.exec(text)?.[1];
   const rest = faults.length > 10 ? `    and ${faults.length - 10} more\n` : '';
   return `  ${attribute('filename')}: ${attribute('name')}\n${shown}${rest}${exception ? `    ${plain(exception.trim())}\n` : ''}`;
+}
+
+/**
+ * The libFuzzer programs in the build tree `folder`, for `seconds` each. A failing input is left in
+ * `folder`/found.
+ *   explores  from what earlier runs found, by chance and told all the while; otherwise from nothing, by
+ *             one fixed seed
+ */
+export async function fuzz(folder, seconds, { explores = false } = {}) {
+  const found = path.join(folder, 'found/');
+  mkdirSync(found, { recursive: true });
+  const programs = readdirSync(path.join(root, 'tests/cpp/fuzz'))
+    .filter((name) => name.endsWith('.cpp'))
+    .map((name) => `fuzz_${path.basename(name, '.cpp')}`);
+  let [passed, failed, told] = [0, 0, ''];
+  for (const name of programs) {
+    const corpus = path.join(folder, `corpus_${name}`);
+    if (explores) mkdirSync(corpus, { recursive: true });
+    const { code, output } = await run(
+      path.join(folder, name),
+      [
+        `-max_total_time=${seconds}`,
+        `-artifact_prefix=${found}${name}_`,
+        '-timeout=30',
+        ...(explores ? [corpus, '-print_final_stats=1'] : ['-seed=1']),
+      ],
+      { allowFailure: true, capture: !explores },
+    );
+    if (code === 0) passed++;
+    else [failed, told] = [failed + 1, `${told}${name}:\n${output.slice(-10_000)}\n`];
+  }
+  return result(passed, failed, told);
 }
 
 /** The vitest tests of one folder. */

@@ -3,11 +3,13 @@
 import path from 'node:path';
 import { buildLibrary, buildPage, buildPreset } from './build.mjs';
 import { Failure, buildRoot, main, say } from './run.mjs';
-import { Summary, clangFormat, doctest, eslint, playwright, typecheck, vitest } from './suites.mjs';
+import { Summary, clangFormat, doctest, eslint, fuzz, playwright, typecheck, vitest } from './suites.mjs';
 import { checkNode, ensureNodeModules, ensureTools } from './tools.mjs';
 
 const kLint = ['typecheck', 'eslint', 'format', 'layering'];
-const kSuites = [...kLint, 'cpp', 'unit', 'pack', 'page'];
+const kSuites = [...kLint, 'cpp', 'fuzz', 'unit', 'pack', 'page'];
+/** For each fuzzer; `npm run fuzz` takes longer. */
+const kFuzzSeconds = 20;
 
 await main(async () => {
   const named = process.argv.slice(2).flatMap((name) => (name === 'lint' ? kLint : [name]));
@@ -24,6 +26,7 @@ await main(async () => {
   const tools = [];
   if (needsLibrary) tools.push('emcc', 'cmake', 'ninja');
   if (chosen('cpp')) tools.push('cmake', 'ninja', 'compiler', 'doctest');
+  if (chosen('fuzz')) tools.push('cmake', 'ninja', 'clang', 'fuzzer');
   if (chosenOf('pack', 'page')) tools.push('chromium');
   if (chosen('format')) tools.push('clangFormat');
   const { paths, missing } = await ensureTools([...new Set(tools)]);
@@ -58,6 +61,11 @@ await main(async () => {
     say('· C++ tests');
     await build('C++ test program', () => buildPreset('native'));
   }
+  const fuzzes = chosen('fuzz') && paths.fuzzer;
+  if (fuzzes) {
+    say('· fuzzers');
+    await build('fuzzers', () => buildPreset('fuzz'));
+  }
 
   say('');
   const native = path.join(buildRoot, 'native/soapfilm_tests');
@@ -76,6 +84,11 @@ await main(async () => {
       await suite('pack', 'packed package', 'library', () =>
         vitest('tests/pack', { CHROMIUM: paths.chromium }),
       );
+      if (fuzzes) {
+        await suite('fuzz', 'fuzzers with sanitizers', 'fuzzers', () =>
+          fuzz(path.join(buildRoot, 'fuzz'), kFuzzSeconds),
+        );
+      }
     })(),
   ]);
   // Alone: pointer strokes on a software-rendered page suffer from a busy machine.

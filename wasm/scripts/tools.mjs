@@ -1,7 +1,18 @@
 // The programs that building and testing need: finds each, or installs it with apt, or says how to
 // get it. Plain Node, for it runs before anything is installed.
 import { spawnSync } from 'node:child_process';
-import { accessSync, constants, existsSync, readFileSync, realpathSync, statSync, utimesSync } from 'node:fs';
+import {
+  accessSync,
+  constants,
+  existsSync,
+  mkdtempSync,
+  readFileSync,
+  realpathSync,
+  rmSync,
+  statSync,
+  utimesSync,
+} from 'node:fs';
+import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { Failure, root, run, say } from './run.mjs';
 
@@ -110,12 +121,12 @@ and run the command again in that shell, or set EMSDK to that folder.`,
   clang: {
     find: () => findProgram('clang++'),
     packages: ['clang'],
-    advice: 'clang++ with libFuzzer.',
+    optional: 'clang',
   },
   fuzzer: {
-    find: () => findFuzzerRuntime(),
+    find: findFuzzer,
     packages: () => [`libclang-rt-${clangVersion() ?? 14}-dev`],
-    advice: "libFuzzer's run-time library (part of compiler-rt).",
+    optional: "clang's libFuzzer",
   },
   cgal: {
     find: () => findHeader('CGAL/version.h'),
@@ -129,19 +140,18 @@ function clangVersion() {
   return file && /clang-(\d+)|llvm-(\d+)/.exec(realpathSync(file))?.slice(1).find(Boolean);
 }
 
-function findFuzzerRuntime() {
-  const version = clangVersion();
-  if (!version) return process.platform === 'darwin' ? findProgram('clang++') : undefined;
-  return [`/usr/lib/llvm-${version}/lib/clang`, '/usr/lib/clang'].find(
-    (folder) => existsSync(folder) && findBelow(folder, 'fuzzer'),
+/** The clang++ that can make fuzzers: not all come with the run-time libraries. */
+function findFuzzer() {
+  const file = findProgram('clang++');
+  if (!file) return undefined;
+  const folder = mkdtempSync(path.join(tmpdir(), 'fuzzer-'));
+  const { status } = spawnSync(
+    file,
+    ['-fsanitize=fuzzer,address,undefined', '-x', 'c++', '-', '-o', path.join(folder, 'program')],
+    { input: 'extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, decltype(sizeof 0)) { return 0; }' },
   );
-}
-
-function findBelow(folder, word) {
-  const versions = ['', '14', '14.0.6', ...Array.from({ length: 20 }, (_, i) => String(i + 13))];
-  const places = versions.map((version) => path.join(folder, version, 'lib/linux'));
-  const machine = { x64: 'x86_64', arm64: 'aarch64' }[process.arch] ?? process.arch;
-  return places.some((place) => existsSync(path.join(place, `libclang_rt.${word}-${machine}.a`)));
+  rmSync(folder, { recursive: true, force: true });
+  return status === 0 ? file : undefined;
 }
 
 async function becomeRoot() {

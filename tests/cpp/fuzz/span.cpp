@@ -3,59 +3,31 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "fuzz/bytes.h"
 #include "soapfilm.h"
+
+using namespace sffuzz;
 
 namespace {
 
 constexpr double kSecondsPerInput = 0.5;
 std::chrono::steady_clock::time_point inputBegan;
 
-/// Takes decisions from the fuzzer's bytes; zeros once they are used up.
-class Bytes {
- public:
-  Bytes(const uint8_t* data, size_t size) : data_(data), size_(size) {}
-  uint8_t byte() {
-    if (size_ == 0) return 0;
-    --size_;
-    return *data_++;
-  }
-  uint32_t below(uint32_t count) { return byte() % count; }
-  double raw() {
-    uint8_t bytes[8];
-    for (uint8_t& b : bytes) b = byte();
-    double value;
-    std::memcpy(&value, bytes, sizeof value);
-    return value;
-  }
-  /// Mostly a small grid, where coincidences are common; now and then any double at all.
-  double coordinate() {
-    uint8_t b = byte();
-    if (b == 255) return raw();
-    if (b >= 240) return (b - 247) * 1e-9;
-    return double(b % 16) - 7;
-  }
-  double weight() {
-    static const double kWeights[] = {0, 1, 1, 0.25, 1e-3, 1e12, -1, NAN, INFINITY};
-    return kWeights[below(9)];
-  }
+/// Mostly a small grid, where coincidences are common; now and then any double at all.
+double coordinate(Bytes& in) {
+  const uint8_t b = in.byte();
+  if (b == 255) return in.raw();
+  if (b >= 240) return (b - 247) * 1e-9;
+  return double(b % 16) - 7;
+}
 
- private:
-  const uint8_t* data_;
-  size_t size_;
-};
-
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
+double weight(Bytes& in) {
+  static const double kWeights[] = {0, 1, 1, 0.25, 1e-3, 1e12, -1, NAN, INFINITY};
+  return kWeights[in.below(9)];
 }
 
 template <class T>
@@ -117,20 +89,20 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
 
   const bool hasNormals = in.below(4) == 0;
   const uint32_t space = in.below(6);
-  double settings[7] = {in.weight(),   in.weight(), in.weight(),        double(in.below(3)),
-                        double(space), 16e6,        double(in.below(2))};
+  double settings[7] = {weight(in),    weight(in), weight(in),         double(in.below(3)),
+                        double(space), 16e6,       double(in.below(2))};
   if (in.below(64) == 63) settings[3 + in.below(4)] = in.raw();
   const uint32_t triangleCount = space == 4 ? in.below(40) : 0;
   const bool hasTriangleWeights = in.below(2) == 0;
 
   std::vector<double> positions(3 * size_t(n)), normals, triangleWeights;
-  for (double& x : positions) x = in.coordinate();
+  for (double& x : positions) x = coordinate(in);
   if (hasNormals)
-    for (uint32_t i = 0; i < 3 * n; ++i) normals.push_back(in.below(5) ? in.coordinate() : NAN);
+    for (uint32_t i = 0; i < 3 * n; ++i) normals.push_back(in.below(5) ? coordinate(in) : NAN);
   std::vector<uint32_t> triangles(3 * size_t(triangleCount)), start(3 * size_t(in.below(9)));
   for (uint32_t& v : triangles) v = in.below(n + 1);
   for (uint32_t& v : start) v = in.below(n + 3);
-  for (uint32_t i = 0; i < triangleCount; ++i) triangleWeights.push_back(in.weight());
+  for (uint32_t i = 0; i < triangleCount; ++i) triangleWeights.push_back(weight(in));
 
   inputBegan = std::chrono::steady_clock::now();
   uint32_t where[4];
