@@ -7,6 +7,12 @@
 #include "polygon/turn.h"
 
 namespace sf {
+namespace {
+
+// Flips a triangle before insertion is thought cheaper.
+constexpr uint32_t kFlipsToAdopt = 2;
+
+}  // namespace
 
 void ConstrainedMesh::reset(double side, int exponent, size_t size) {
   exponent_ = exponent;
@@ -47,6 +53,31 @@ bool ConstrainedMesh::insertAll(std::vector<uint32_t>& vertices, ArrayView<const
     if (!work.tick(300)) return false;
   }
   return true;
+}
+
+bool ConstrainedMesh::adopt(const std::vector<uint32_t>& corners,
+                            ArrayView<const uint32_t> ringNext, Work& work) {
+  mesh.corners = corners;
+  if (!findTwins(mesh.corners, uint32_t(at.size()), work, mesh.twins)) return false;
+  uint32_t border = 0;
+  pending_.clear();
+  for (uint32_t h = 0; h < corners.size(); ++h) {
+    mesh.edgeFrom[corners[h]] = h;
+    if (h % 3 == 0 && mesh.orient(corners[h], corners[h + 1], corners[h + 2]) <= 0) return false;
+    if (mesh.twins[h] == kNone)
+      ++border;
+    else if (h < mesh.twins[h] && ringNext[mesh.from(h)] != mesh.to(h) &&
+             ringNext[mesh.to(h)] != mesh.from(h))
+      pending_.push_back(h);
+  }
+  if (border != kCorners || !work.tick(20 * uint32_t(corners.size()))) return false;
+  for (uint32_t v = kCorners; v < at.size(); ++v)
+    if (ringNext[v] != kNone) next[v] = ringNext[v], prev[ringNext[v]] = v;
+  const uint32_t count = mesh.triangleCount();
+  stamps_.assign(count, stamp_), links.bits.assign(count, 0);  // so that flips note nothing
+  const bool done = legalize(kFlipsToAdopt * count) > 0;
+  forgetChanges();
+  return done && work.tick(200 * count);
 }
 
 void ConstrainedMesh::setPosition(uint32_t v, Point2 p) {
@@ -319,7 +350,7 @@ void ConstrainedMesh::legalizeChanged(uint32_t budget) {
   legalize(budget);
 }
 
-void ConstrainedMesh::legalize(uint32_t budget) {
+uint32_t ConstrainedMesh::legalize(uint32_t budget) {
   while (!pending_.empty() && budget > 0) {
     const uint32_t h = pending_.back();
     pending_.pop_back();
@@ -330,6 +361,7 @@ void ConstrainedMesh::legalize(uint32_t budget) {
     pending_.insert(pending_.end(), {h, prevInTriangle(h), g, prevInTriangle(g)});
   }
   pending_.clear();
+  return budget;
 }
 
 }  // namespace sf

@@ -44,6 +44,12 @@ class ConstrainedMesh {
   ///   vertices  reordered
   bool insertAll(std::vector<uint32_t>& vertices, ArrayView<const uint32_t> ringNext, Work& work,
                  uint32_t& refused, Obstacle& obstacle);
+  /// Takes over triangles of an empty box, among them those on both sides of all edges v -
+  /// ringNext[v], fixes these, and makes the triangles constrained Delaunay. False if they do not
+  /// fit together or are not of positive area, if more than a few flips a triangle are needed, or
+  /// when the work ended; the box is to be emptied then. O(m) time.
+  ///   corners  [3m]
+  bool adopt(const std::vector<uint32_t>& corners, ArrayView<const uint32_t> ringNext, Work& work);
   /// Makes v a vertex of the triangles, walking to it from vertex `near`.
   bool insertPoint(uint32_t v, uint32_t near, Obstacle& obstacle);
   /// Takes v, of which no edge is fixed, out of the triangles.
@@ -53,8 +59,8 @@ class ConstrainedMesh {
   /// Moves v to p if all triangles around it keep positive area. They do not count as changed.
   bool shiftPoint(uint32_t v, Point2 p);
   /// Flips edges to be Delaunay, but not fixed ones: those around a point inserted or shifted last,
-  /// and where that leads; at most `budget` flips.
-  void legalize(uint32_t budget);
+  /// and where that leads; at most `budget` flips. Returns how many of them were left.
+  uint32_t legalize(uint32_t budget);
   /// The same, of all changed triangles.
   void legalizeChanged(uint32_t budget);
 

@@ -81,6 +81,7 @@ class PolygonSession {
 
   Outcome readRings(const PolygonView& polygon);
   Outcome build(Work& work);
+  bool flood(ArrayView<const uint32_t> ringNext, Work& work);
   bool withinBox(Point2 p) const;
   Outcome rebuildWith(uint32_t v, Point2 p, Work& work);
   void restore();
