@@ -30,7 +30,7 @@ Mesh triangulate(const Polygon& polygon) {
   Mesh mesh;
   mesh.at = sight.linked.at;
   std::vector<uint32_t>& corners = mesh.triangles.corners;
-  REQUIRE(triangulator.triangulate(sight.linked, sight.seen, 2, false, work, corners));
+  REQUIRE(triangulator.triangulate(sight.linked, sight.seen, true, false, work, corners));
   REQUIRE(findTwins(corners, uint32_t(mesh.at.size()), work, mesh.triangles.twins));
   mesh.triangles.at = mesh.triangles.metric = mesh.at;
   return mesh;

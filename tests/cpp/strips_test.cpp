@@ -66,7 +66,7 @@ std::vector<uint32_t> trianglesOf(const Polygon& polygon, const std::vector<Poin
   TrapezoidTriangulator triangulator;
   Work work;
   std::vector<uint32_t> triangles;
-  REQUIRE(triangulator.triangulate(sight.linked, sight.seen, 1, true, work, triangles));
+  REQUIRE(triangulator.triangulate(sight.linked, sight.seen, true, true, work, triangles));
   return triangles;
 }
 

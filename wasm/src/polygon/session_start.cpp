@@ -4,6 +4,7 @@
 
 #include "base/charge.h"
 #include "polygon/complement.h"
+#include "polygon/constrained_delaunay.h"
 #include "polygon/flood.h"
 #include "polygon/session.h"
 #include "polygon/sweep.h"
@@ -128,16 +129,20 @@ bool PolygonSession::flood(ArrayView<const uint32_t> ringNext, Work& work) {
 
   PlaneSweep sweep;
   Flood flood;
+  ConstrainedDelaunay delaunay;
   LinkedPolygon inside, outside;
   Visibility seen, seenOutside;
+  std::vector<uint32_t> around, twins;
   if (!sweep.run({xy[0], starts, xy[1]}, true, work, inside, seen).ok()) return false;
-  if (!sweep.isPlain() || !flood.run(inside, seen, work, corners, nullptr)) return false;
+  if (!sweep.isPlain() || !flood.run(inside, seen, work, corners, nullptr, &twins)) return false;
+  const bool simple = starts.size() == 2 && islands.empty();
+  if (!delaunay.run(inside, simple, work, corners, twins)) return false;
   for (uint32_t& v : corners) v = numbers[v];
   takeComplement(inside, seen, outside, seenOutside);
-  const uint32_t count = uint32_t(numbers.size());
   widenFrame(outside);
-  std::vector<uint32_t> around;
-  if (!flood.run(outside, seenOutside, work, around, nullptr)) return false;
+  if (!flood.run(outside, seenOutside, work, around, nullptr, &twins)) return false;
+  if (!delaunay.run(outside, false, work, around, twins)) return false;
+  const uint32_t count = uint32_t(numbers.size());
   for (const uint32_t v : around) corners.push_back(v < count ? numbers[v] : v - count);
   return mesh_.adopt(corners, ringNext, work);
 }

@@ -164,7 +164,7 @@ TriangleMesh::Place TrapezoidTriangulator::walk(uint32_t h, uint32_t p) const {
 
 bool TrapezoidTriangulator::insertIslands(const LinkedPolygon& linked, const Visibility& seen,
                                           Work& work) {
-  islands_.clear();
+  islands_.clear(), edges_.clear();
   for (const uint32_t v : seen.order)
     if (linked.kind[v] == VertexKind::Island) islands_.push_back(v);
   if (islands_.empty()) return true;
@@ -190,9 +190,9 @@ bool TrapezoidTriangulator::insertIslands(const LinkedPolygon& linked, const Vis
   return true;
 }
 
-/// Flips for better angles, and inserts the islands.
+/// Makes the best of the angles, if `delaunay`, and inserts the islands.
 bool TrapezoidTriangulator::improve(const LinkedPolygon& linked, const Visibility& seen,
-                                    double flips, Work& work) {
+                                    bool delaunay, Work& work) {
   const uint32_t nodes = uint32_t(linked.at.size());
   Charge charge(work);
   if (!charge.add(8 * uint64_t(mesh_.corners.size()))) return false;
@@ -201,18 +201,12 @@ bool TrapezoidTriangulator::improve(const LinkedPolygon& linked, const Visibilit
   mesh_.unused.clear();
   mesh_.edgeFrom.clear();
   if (!findTwins(mesh_.corners, nodes, work, mesh_.twins)) return false;
-  edges_.clear();
-  for (uint32_t h = 0; h < mesh_.corners.size(); ++h)
-    if (mesh_.twins[h] != kNone && h < mesh_.twins[h]) edges_.push_back(h);
-  const uint32_t budget = uint32_t(flips * double(mesh_.corners.size() / 3));
-  const uint32_t left = legalize(mesh_, edges_, budget, work);
-  if (budget > 0 && left == 0 && !delaunay_.run(linked, false, work, mesh_.corners, mesh_.twins))
-    return false;
+  if (delaunay && !delaunay_.run(linked, false, work, mesh_.corners, mesh_.twins)) return false;
   return work.going() && insertIslands(linked, seen, work);
 }
 
 bool TrapezoidTriangulator::triangulate(const LinkedPolygon& linked, const Visibility& seen,
-                                        double flips, bool forStrips, Work& work,
+                                        bool delaunay, bool forStrips, Work& work,
                                         std::vector<uint32_t>& triangles) {
   Charge charge(work);
   const uint64_t nodes = linked.at.size();
@@ -225,17 +219,19 @@ bool TrapezoidTriangulator::triangulate(const LinkedPolygon& linked, const Visib
   std::vector<uint32_t>& corners = mesh_.corners;
   corners.resize(3 * chain.size());
   uint32_t* out = corners.data();
-  for (uint32_t e = 0; e + 1 < starts.size(); ++e) {
-    const uint32_t size = starts[e + 1] - starts[e];
-    if (size == 0) continue;
-    out = tree_.triangulate(linked.at, chain.slice(starts[e], size), (e & 1) == 1, out);
-    if (!work.tick(16 * size)) return false;
-  }
+  // From the bottom to the top, so that triangles near each other are near each other in the list.
+  for (const uint32_t u : seen.order)
+    for (const uint32_t e : {leftEdge(u), rightEdge(u)}) {
+      const uint32_t size = starts[e + 1] - starts[e];
+      if (size == 0) continue;
+      out = tree_.triangulate(linked.at, chain.slice(starts[e], size), (e & 1) == 1, out);
+      if (!work.tick(16 * size)) return false;
+    }
   corners.resize(size_t(out - corners.data()));
 
   bool islands = false;
   for (const VertexKind kind : linked.kind) islands |= kind == VertexKind::Island;
-  if ((flips > 0 || islands || forStrips) && !improve(linked, seen, flips, work)) return false;
+  if ((delaunay || islands || forStrips) && !improve(linked, seen, delaunay, work)) return false;
   if (forStrips && !stripFlips_.run(mesh_, work)) return false;
   triangles.insert(triangles.end(), corners.begin(), corners.end());
   return work.going();

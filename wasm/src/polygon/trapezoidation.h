@@ -18,12 +18,11 @@
 //   grid would be rows of trapezoids as wide as the polygon and of no height. Over 20 x 20 points
 //   in a blob the mean smallest angle is 3.8 degrees that way, whatever the monotone triangulation.
 //   They are inserted into the finished triangles, in random rounds, and edges around them flipped.
-// - Diagonals of thin trapezoids are made like all others and then flipped where the other diagonal
-//   of the two triangles is better. That reaches what not making them would (the chains on both
-//   sides then exchange triangles), without monotone polygons of two chains. Most polygons need a
-//   third of a flip a triangle. Where most trapezoids are thin, as across the inside of a densely
-//   sampled curve, O(n) flips a vertex would be; there the vertices are inserted one by one
-//   instead.
+// - Diagonals of thin trapezoids are made like all others, and the triangles then made constrained
+//   Delaunay (constrained_delaunay.h), which takes as long as the u-trees. That reaches what not
+//   making them would (the chains on both sides then exchange triangles), without monotone polygons
+//   of two chains. Flips alone would do as well for most polygons, but be O(n) a vertex across the
+//   inside of a densely sampled curve, where most trapezoids are thin.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -69,15 +68,15 @@ class TrapezoidTriangulator {
   /// Appends the triangles, as nodes, counter-clockwise and of positive area, to `triangles`.
   /// Islands are vertices of them. False when the work ended.
   ///   seen       of all nodes, not of sags alone
-  ///   flips      how many flips a triangle are tried to improve angles, before the triangles are
-  ///              rather merged to Delaunay ones; 0 leaves the u-trees' triangles
+  ///   delaunay   whether triangles are made constrained Delaunay, but for what is connected with
+  ///              very many islands, or left as the u-trees make them
   ///   forStrips  whether some edges are flipped so that strips get longer, at a small loss in
   ///              angles
-  bool triangulate(const LinkedPolygon& linked, const Visibility& seen, double flips,
+  bool triangulate(const LinkedPolygon& linked, const Visibility& seen, bool delaunay,
                    bool forStrips, Work& work, std::vector<uint32_t>& triangles);
 
  private:
-  bool improve(const LinkedPolygon& linked, const Visibility& seen, double flips, Work& work);
+  bool improve(const LinkedPolygon& linked, const Visibility& seen, bool delaunay, Work& work);
   bool insertIslands(const LinkedPolygon& linked, const Visibility& seen, Work& work);
   TriangleMesh::Place followSight(uint32_t e, uint32_t p) const;
   TriangleMesh::Place walk(uint32_t h, uint32_t p) const;

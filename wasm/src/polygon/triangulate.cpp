@@ -16,9 +16,6 @@
 namespace sf {
 namespace {
 
-// Flips a triangle after the u-trees, before the method of improving angles is changed.
-constexpr double kFlips = 2;
-
 bool isFault(Status status) {
   switch (status) {
     case Status::SelfIntersecting:
@@ -65,12 +62,12 @@ bool PolygonTriangulator::State::triangulateLoops(const PolygonOptions& options,
   const bool flooding = options.method == PolygonMethod::Flooding;
   if (!options.delaunay)
     return flooding ? flood.run(loops, seen, work, triangles, trace)
-                    : trapezoids.triangulate(loops, seen, kFlips, options.strips, work, triangles);
+                    : trapezoids.triangulate(loops, seen, true, options.strips, work, triangles);
   nodes.clear();
   if (flooding) {
     if (!flood.run(loops, seen, work, nodes, trace, &twins)) return false;
   } else {
-    if (!trapezoids.triangulate(loops, seen, kFlips, options.strips, work, nodes)) return false;
+    if (!trapezoids.triangulate(loops, seen, true, false, work, nodes)) return false;
     if (!findTwins(nodes, uint32_t(loops.at.size()), work, twins)) return false;
   }
   if (!delaunay.run(loops, isSimple, work, nodes, twins)) return false;
