@@ -53,7 +53,8 @@ sf::Certificate blankFor(const Polygon& polygon) {
   return c;
 }
 
-/// The certificate of flooding, both ways; false in `done` if the sweep refuses the polygon.
+/// The certificate of flooding, both ways; false in `done` if the sweep refuses the polygon. With twins
+/// for polygons of an even number of vertices.
 sf::Certificate floodedBothWays(const Polygon& polygon, bool& done) {
   sf::Certificate c = blankFor(polygon);
   sf::PlaneSweep sweep;
@@ -62,14 +63,18 @@ sf::Certificate floodedBothWays(const Polygon& polygon, bool& done) {
   sf::Visibility seen;
   sf::Work work;
   const sf::PolygonView view{polygon.positions, polygon.starts, {}};
-  const auto take = [&](sf::Outcome outcome, std::vector<uint32_t>& triangles) {
-    if (!outcome.ok() || !flood.run(loops, seen, work, triangles, nullptr)) return false;
+  const bool hinted = polygon.vertexCount() % 2 == 0;
+  const auto take = [&](sf::Outcome outcome, std::vector<uint32_t>& triangles,
+                        std::vector<uint32_t>& twins) {
+    if (!outcome.ok() ||
+        !flood.run(loops, seen, work, triangles, nullptr, hinted ? &twins : nullptr))
+      return false;
     for (uint32_t& v : triangles) v = loops.vertex[v];
     triangles.insert(triangles.end(), loops.flat.begin(), loops.flat.end());
     return true;
   };
-  done = take(sweep.run(view, true, work, loops, seen), c.inside) &&
-         take(sweep.runComplement(view, work, loops, seen), c.complement);
+  done = take(sweep.run(view, true, work, loops, seen), c.inside, c.insideTwins) &&
+         take(sweep.runComplement(view, work, loops, seen), c.complement, c.complementTwins);
   return c;
 }
 
@@ -102,6 +107,31 @@ TEST_CASE("certificate: given for flooding's triangles of valid polygons") {
     ++certain;
   }
   CHECK(certain > 600);
+}
+
+TEST_CASE("certificate: a twin that is not one is refused, whatever the triangles") {
+  int changes = 0;
+  for (uint32_t seed = 1; seed <= 300; ++seed) {
+    Random random(seed);
+    const Polygon polygon = smallPolygon(random);
+    bool done = false;
+    sf::Certificate c = floodedBothWays(polygon, done);
+    if (c.insideTwins.empty()) continue;
+    REQUIRE(done);
+    const uint32_t h = random.below(uint32_t(c.insideTwins.size()));
+    const uint32_t g = random.below(uint32_t(c.insideTwins.size()) + 10);
+    if (c.insideTwins[h] == g) continue;
+    INFO("seed ", seed, " half-edge ", h, " to ", g);
+    c.insideTwins[h] = g;
+    CHECK(!isCertain(c));
+    if (g < c.insideTwins.size()) c.insideTwins[g] = h;
+    CHECK(!isCertain(c));
+    // Without hints the edges themselves are looked at.
+    c.insideTwins.clear();
+    CHECK(isCertain(c));
+    ++changes;
+  }
+  CHECK(changes > 50);
 }
 
 TEST_CASE("certificate: refused after any change of a triangle") {

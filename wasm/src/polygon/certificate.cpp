@@ -1,6 +1,7 @@
 #include "polygon/certificate.h"
 
 #include "base/charge.h"
+#include "polygon/triangle_mesh.h"
 #include "polygon/turn.h"
 
 namespace sf {
@@ -71,8 +72,9 @@ class OpenEdges {
 };
 
 /// Whether the boundary of the triangles is that of the rings, or of the frame less the rings.
-bool boundsRings(const Certificate& c, const std::vector<uint32_t>& triangles, bool frame,
-                 Work& work) {
+bool boundsRings(const Certificate& c, bool frame, Work& work) {
+  const std::vector<uint32_t>& triangles = frame ? c.complement : c.inside;
+  const std::vector<uint32_t>& twins = frame ? c.complementTwins : c.insideTwins;
   const size_t m = c.at.size();
   Charge charge(work);
   if (!charge.add(4 * uint64_t(m))) return false;
@@ -98,10 +100,17 @@ bool boundsRings(const Certificate& c, const std::vector<uint32_t>& triangles, b
     frame ? want(c.rings[i + 1], c.rings[i]) : want(c.rings[i], c.rings[i + 1]);
   const uint32_t first = uint32_t(m) - 4;
   for (uint32_t k = 0; frame && k < 4; ++k) want(first + k, first + (k + 1) % 4);
-  for (size_t i = 0; i < triangles.size(); i += 3) {
-    const uint32_t u = c.same[triangles[i]], v = c.same[triangles[i + 1]];
-    const uint32_t w = c.same[triangles[i + 2]];
-    add(u, v), add(v, w), add(w, u);
+  for (uint32_t h = 0; h < triangles.size(); ++h) {
+    const uint32_t u = triangles[h], v = triangles[nextInTriangle(h)];
+    const uint32_t g = h < twins.size() ? twins[h] : kNone;
+    if (g == kNone)
+      add(c.same[u], c.same[v]);
+    else if (g >= triangles.size() || g >= twins.size() || twins[g] != h)
+      return false;
+    else if (g < h)
+      continue;  // the two have cancelled
+    else if (triangles[g] != v || triangles[nextInTriangle(g)] != u)
+      return false;
   }
   for (const uint32_t v : wanted)
     if (v != kNone) return false;
@@ -125,7 +134,7 @@ bool certify(const Certificate& c, Work& work) {
   }
   if (!noneTurnedOver(c, c.inside) || !noneTurnedOver(c, c.complement)) return false;
   if (!work.tick(uint32_t(c.at.size() < (1u << 24) ? c.at.size() * 60 : 1u << 30))) return false;
-  return boundsRings(c, c.inside, false, work) && boundsRings(c, c.complement, true, work);
+  return boundsRings(c, false, work) && boundsRings(c, true, work);
 }
 
 }  // namespace sf

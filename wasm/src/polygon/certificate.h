@@ -18,6 +18,9 @@ struct Certificate {
   std::vector<uint32_t> rings;   // [2e] edges u -> v of the rings, the polygon to the left
   std::vector<uint32_t> inside;  // [3t] triangles of the polygon
   std::vector<uint32_t> complement;  // [3s] triangles of the frame without the polygon
+  // Which half-edges, as in triangle_mesh.h, are opposites of each other, for the first triangles; kNone
+  // where that is not known. What is said has to be right.
+  std::vector<uint32_t> insideTwins, complementTwins;  // [up to 3t], [up to 3s]
 };
 
 /// Whether the triangles prove by themselves that the rings wind 0 or 1 times around every point off

@@ -35,7 +35,9 @@ void takeComplement(const LinkedPolygon& polygon, const Visibility& seen, Linked
   double side = 0;
   for (uint32_t v = 0; v < m; ++v) {
     complement.kind[v] = seenFromOutside(polygon.kind[v]);
-    side = std::fmax(side, std::fmax(std::fabs(polygon.at[v].x), std::fabs(polygon.at[v].y)));
+    const double x = std::fabs(polygon.at[v].x), y = std::fabs(polygon.at[v].y);
+    side = x > side ? x : side;
+    side = y > side ? y : side;
   }
   side *= 2;
   const Point2 corners[4] = {{-side, -side}, {side, -side}, {side, side}, {-side, side}};

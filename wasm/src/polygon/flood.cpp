@@ -8,12 +8,11 @@ namespace sf {
 bool Flood::run(const LinkedPolygon& loops, const Visibility& seen, Work& work,
                 std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace,
                 std::vector<uint32_t>* twins) {
-  SF_ASSERT(!twins || triangles.empty());
   Charge charge(work);
   const size_t m = loops.at.size();
   size_t bridges = 0;
   for (uint32_t v : seen.order) bridges += loops.kind[v] != VertexKind::Bottom;
-  const uint64_t perNode = sizeof(Node) + (twins ? sizeof(uint32_t) : 0);
+  const uint64_t perNode = sizeof(Node) + (twins ? 4 * sizeof(uint32_t) : 0);
   if (!charge.add((m + 2 * bridges) * perNode)) return false;
   nodes_.resize(m + 2 * bridges);
   twins_ = nullptr;

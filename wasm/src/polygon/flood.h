@@ -25,8 +25,8 @@ class Flood {
   /// positive.
   ///   loops, seen  as PlaneSweep::run leaves them; they are read only
   ///   trace        if not null, gets the actions, with nodes for vertices
-  ///   twins        if not null, is set to what findTwins (triangle_mesh.h) finds of these triangles;
-  ///                `triangles` has to be empty then
+  ///   twins        if not null, is set to what findTwins (triangle_mesh.h) finds of the triangles
+  ///                appended, as if there were no others
   /// False, after a forbidden state, only for loops that no sweep has passed; or once `work` is to
   /// end. O(m) time and memory; the memory is kept, and charged during the call.
   bool run(const LinkedPolygon& loops, const Visibility& seen, Work& work,

@@ -188,7 +188,7 @@ bool RingLinker::linkDistinct(bool reversed) {
 
 void frameAround(const PolygonView& polygon, Point2 corners[4]) {
   double m = 0;
-  for (const double x : polygon.positions) m = std::fmax(m, std::fabs(x));
+  for (const double x : polygon.positions) m = std::fabs(x) > m ? std::fabs(x) : m;
   m *= 2;
   corners[0] = {-m, -m}, corners[1] = {m, -m}, corners[2] = {m, m}, corners[3] = {-m, m};
 }

@@ -39,8 +39,9 @@ struct PolygonTriangulator::State {
   LinkedPolygon loops, outerLoops;
   Visibility seen, outside;
   Certificate certificate;
-  std::vector<uint32_t> nodes, twins, starts;
-  bool isSimple = false;  // the polygon is one ring that does not touch itself
+  std::vector<uint32_t> nodes, starts;
+  std::vector<uint32_t> twins;  // of the triangles found last, if asked for
+  bool isSimple = false;        // the polygon is one ring that does not touch itself
 
   Outcome append(const PolygonView& polygon, const PolygonOptions& options, Work& work,
                  std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace);
@@ -60,9 +61,11 @@ bool PolygonTriangulator::State::triangulateLoops(const PolygonOptions& options,
                                                   std::vector<uint32_t>& triangles,
                                                   std::vector<FloodStep>* trace) {
   const bool flooding = options.method == PolygonMethod::Flooding;
+  twins.clear();
   if (!options.delaunay)
-    return flooding ? flood.run(loops, seen, work, triangles, trace)
-                    : trapezoids.triangulate(loops, seen, true, options.strips, work, triangles);
+    return flooding
+               ? flood.run(loops, seen, work, triangles, trace, options.verify ? &twins : nullptr)
+               : trapezoids.triangulate(loops, seen, true, options.strips, work, triangles);
   nodes.clear();
   if (flooding) {
     if (!flood.run(loops, seen, work, nodes, trace, &twins)) return false;
@@ -117,14 +120,16 @@ bool PolygonTriangulator::State::isCertain(const PolygonView& polygon, bool sags
   Charge charge(work);
   const uint32_t n = uint32_t(polygon.positions.size() / 2);
   const uint32_t p = uint32_t(polygon.points.size() / 2);
-  if (!charge.add((uint64_t(n) + p) * 100)) return false;
+  if (!charge.add((uint64_t(n) + p) * 120)) return false;
   Certificate& c = certificate;
-  c.at.clear(), c.rings.clear(), c.complement.clear();
-  for (const ArrayView<const double> xy : {polygon.positions, polygon.points})
-    for (size_t i = 0; i < xy.size(); i += 2) c.at.push_back({xy[i], xy[i + 1]});
+  c.rings.clear(), c.complement.clear();
   c.at.resize(size_t(n) + p + 4);
+  Point2* at = c.at.data();
+  for (const ArrayView<const double> xy : {polygon.positions, polygon.points})
+    for (size_t i = 0; i < xy.size(); i += 2) *at++ = {xy[i], xy[i + 1]};
   frameAround(polygon, c.at.data() + n + p);
   c.inside.assign(triangles.begin(), triangles.end());
+  c.insideTwins.swap(twins);
   const bool plain = sweep.isPlain();
   if (plain) {
     c.same.resize(size_t(n) + p);
@@ -144,7 +149,8 @@ bool PolygonTriangulator::State::isCertain(const PolygonView& polygon, bool sags
   } else if (!sweep.runComplement(polygon, work, outerLoops, outside).ok()) {
     return false;
   }
-  if (!flood.run(outerLoops, outside, work, c.complement, nullptr)) return false;
+  if (!flood.run(outerLoops, outside, work, c.complement, nullptr, &c.complementTwins))
+    return false;
   if (!plain || !sagsOnly) {
     c.complement.insert(c.complement.end(), outerLoops.flat.begin(), outerLoops.flat.end());
     // There, the frame's corners follow the vertices.
