@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "base/predicates.h"
 #include "support/polygon_oracle.h"
@@ -249,6 +250,15 @@ TEST_CASE("trapezoidation: islands become vertices of the triangles") {
     CHECK(triangles.size() / 3 == blob.polygon.vertexCount() - 2 + 2 * blob.inner.size());
     CHECK(faultWithIslands(sight.linked, triangles) == "");
   }
+}
+
+TEST_CASE("trapezoidation: islands may be as close together as there are numbers") {
+  const double tiny = std::numeric_limits<double>::denorm_min();
+  const Polygon square = polygonOf({{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}});
+  const Sight sight = lookAround(square, {{0, 0}, {tiny, 0}, {0, tiny}});
+  const std::vector<uint32_t> triangles = triangulate(sight, true, false);
+  CHECK(triangles.size() / 3 == 2 + 2 * 3);
+  CHECK(faultWithIslands(sight.linked, triangles) == "");
 }
 
 TEST_CASE("trapezoidation: if wanted the triangles are constrained Delaunay") {

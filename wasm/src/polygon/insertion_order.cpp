@@ -43,7 +43,8 @@ void sortForInsertion(ArrayView<const Point2> at, std::vector<uint32_t>& indices
     high = {std::max(high.x, at[i].x), std::max(high.y, at[i].y)};
   }
   const double side = std::max(high.x - low.x, high.y - low.y);
-  const double scale = side > 0 ? ((1 << kBits) - 1) / side : 0;
+  // So close together that the quotient may overflow, they are in one cell.
+  const double scale = side > 0x1p-1000 ? ((1 << kBits) - 1) / side : 0;
   std::vector<uint64_t> keys;
   keys.reserve(indices.size());
   uint32_t rounds = 0;
