@@ -183,76 +183,93 @@ inline void PolygonChart::choose(Tried& t, Splits& s, Segment& segment) const {
   }
 }
 
-/// Bounds of all apexes of a segment, the cost of what lies behind their triangles, up to a multiple
-/// of four of them; the least one.
-float PolygonChart::boundApexes(uint32_t first, uint32_t last) {
+/// The least bound of the apexes of a segment: the cost of what lies behind their triangles. Keeps all of
+/// them, up to a multiple of four, if they are wanted.
+template <bool wanted>
+inline float PolygonChart::boundApexes(uint32_t first, uint32_t last) {
   const float* left = &cost_[size_t(first) * n_ + first + 1];
   const float* right = &cost_[size_t(last) * n_ + first + 1];
   const uint32_t count = last - first - 1, whole = count & ~3u;
-  Float4 least = Float4{} + kNever;
+  const Float4 never = Float4{} + kNever;
+  Float4 least = never;
   for (uint32_t x = 0; x < whole; x += 4) {
     const Float4 b = load(left + x) + load(right + x);
     least = smaller(least, b);
-    store(&bound_[x], b);
+    if (wanted) store(&bound_[x], b);
   }
   if (whole < count) {
-    Float4 rest = Float4{} + kNever;
+    Float4 rest = never;
     for (uint32_t x = whole; x < count; ++x) rest[x - whole] = left[x] + right[x];
     least = smaller(least, rest);
-    store(&bound_[whole], rest);
+    if (wanted) store(&bound_[whole], rest);
   }
   return std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
 }
 
-/// How many apexes have a bound of at most `most`.
-inline uint32_t PolygonChart::countApexes(uint32_t count, float most) const {
-  Int4 sum = {};
-  for (uint32_t x = 0; x < count; x += 4) sum -= load(&bound_[x]) <= most;
-  return uint32_t(sum[0] + sum[1] + sum[2] + sum[3]);
+/// Takes the apexes whose bound is at most `most` into apexes_.
+inline void PolygonChart::selectApexes(uint32_t first, uint32_t last, float most) {
+  const uint32_t count = last - first - 1;
+  uint32_t chosen = 0;
+  for (uint32_t x = 0; x < count; x += 4) {
+    if (!any(load(&bound_[x]) <= most)) continue;
+    for (uint32_t i = x; i < x + 4; ++i) {
+      apexes_[chosen] = first + 1 + i;
+      chosen += bound_[i] <= most;
+    }
+  }
+  apexCount_ = chosen;
 }
 
-/// The cheap ones of the splits whose bound is at most `most`.
-void PolygonChart::tryApexes(uint32_t first, uint32_t last, float most, Splits& s,
-                             Segment& segment) {
+/// Drops those whose bound is above `most` from apexes_.
+inline void PolygonChart::narrowApexes(uint32_t first, float most) {
+  uint32_t chosen = 0;
+  for (uint32_t q = 0; q < apexCount_; ++q) {
+    const uint32_t apex = apexes_[q];
+    apexes_[chosen] = apex;
+    chosen += bound_[apex - first - 1] <= most;
+  }
+  apexCount_ = chosen;
+}
+
+/// The cheap ones of the splits at apexes_.
+void PolygonChart::tryApexes(uint32_t first, uint32_t last, Splits& s, Segment& segment) {
   Tried& t = tried_;
-  const auto decide = [&] {
-    for (uint32_t q = t.count; q % 4 != 0; ++q) t.apex[q] = t.apex[0];
+  t.count = 0;
+  for (uint32_t q = 0; q < apexCount_;) {
+    // The best ones of those before stay in.
+    while (t.count < kRoom && q < apexCount_) t.apex[t.count++] = apexes_[q++];
+    for (uint32_t i = t.count; i % 4 != 0; ++i) t.apex[i] = t.apex[0];
     weigh(first, last, t);
     s = noSplits();
     segment = {first, last, {kNone, kNone, kNone, kNone}};
     choose(t, s, segment);
-  };
-  t.count = 0;
-  for (uint32_t x = 0; x < last - first - 1; x += 4) {
-    if (!any(load(&bound_[x]) <= most)) continue;
-    if (t.count + 4 > kRoom) {
-      decide();
-      t.count = 0;
-      for (uint32_t k = 0; k < kSplits && s.cost[k] < kNever; ++k)
-        t.apex[t.count++] = segment.apex[k];
-    }
-    for (uint32_t i = x; i < x + 4; ++i) {
-      t.apex[t.count] = first + 1 + i;
-      t.count += bound_[i] <= most;
-    }
+    t.count = 0;
+    for (uint32_t k = 0; k < kSplits && s.cost[k] < kNever; ++k)
+      t.apex[t.count++] = segment.apex[k];
   }
-  decide();
 }
 
 /// The cheap splits of a segment; false if it has none. Some may be missed.
 bool PolygonChart::split(uint32_t first, uint32_t last, Splits& s, Segment& segment) {
-  const float least = boundApexes(first, last);
+  const float least = boundApexes<true>(first, last);
   if (least == kNever) return false;
   s = noSplits();
   if (last - first > kTryAll) {
     float gap = gap_;
-    for (int n = 0; n < kMostNarrowings; ++n, gap *= kNarrower)
-      if (countApexes(last - first - 1, least + gap) <= kManyApexes) break;
-    tryApexes(first, last, least + gap, s, segment);
+    selectApexes(first, last, least + gap);
+    for (int n = 0; n < kMostNarrowings && apexCount_ > kManyApexes; ++n)
+      narrowApexes(first, least + (gap *= kNarrower));
+    tryApexes(first, last, s, segment);
     const float own = kOwnGap * (s.cost[0] - least);
-    if (own < kNever && own > kWider * gap) tryApexes(first, last, least + own, s, segment);
+    if (own < kNever && own > kWider * gap) {
+      selectApexes(first, last, least + own);
+      tryApexes(first, last, s, segment);
+    }
   }
-  if (!(s.cost[0] < kNever)) tryApexes(first, last, kMost, s, segment);
+  if (!(s.cost[0] < kNever)) {
+    selectApexes(first, last, kMost);
+    tryApexes(first, last, s, segment);
+  }
   if (!(s.cost[0] < kNever)) return false;
   gapSum_ += s.cost[0] - least;
   return true;
@@ -322,7 +339,7 @@ bool PolygonChart::computeLength(uint32_t length) {
   ranked_.clear();
   for (uint32_t i = 0; i < count; ++i) {
     if (!work_.tick(20 + length / 2)) return false;
-    const float bound = keepAll ? 0 : boundApexes(i, i + length) - price(i, i + length);
+    const float bound = keepAll ? 0 : boundApexes<false>(i, i + length) - price(i, i + length);
     if (bound < kNever) ranked_.push_back({bound, i});
   }
   keepLeast(ranked_, size_t(kSplitPerKept * double(most)));
@@ -378,6 +395,7 @@ bool PolygonChart::compute(std::vector<Corner> corners) {
   cost_.assign(size_t(n_) * n_, kNever);
   number_.resize(size_t(n_) * n_);
   bound_.resize(n_ + 4);
+  apexes_.resize(n_ + 4);
   addEdges();
   for (uint32_t length = 2; length < n_; ++length)
     if (!computeLength(length)) return false;

@@ -78,9 +78,11 @@ class PolygonChart {
   Float4 costsFrom(const Splits& splits, Normal normal) const;
   void weigh(uint32_t first, uint32_t last, Tried& tried) const;
   void choose(Tried& tried, Splits& splits, Segment& segment) const;
+  template <bool wanted>
   float boundApexes(uint32_t first, uint32_t last);
-  uint32_t countApexes(uint32_t count, float most) const;
-  void tryApexes(uint32_t first, uint32_t last, float most, Splits& splits, Segment& segment);
+  void selectApexes(uint32_t first, uint32_t last, float most);
+  void narrowApexes(uint32_t first, float most);
+  void tryApexes(uint32_t first, uint32_t last, Splits& splits, Segment& segment);
   bool split(uint32_t first, uint32_t last, Splits& splits, Segment& segment);
   float price(uint32_t first, uint32_t last) const { return price_[last] - price_[first]; }
   void findPrices();
@@ -106,9 +108,11 @@ class PolygonChart {
   float gap_ = 0;                 // how far above the least bound splits are tried first
   float gapSum_ = 0;              // of the segments of one length: cost beyond the least bound
   std::vector<float> bound_;      // scratch
-  Tried tried_;                   // scratch
-  std::vector<float> price_;      // of the edges before each corner, once it is needed
-  std::vector<Ranked> ranked_;    // scratch: by bound, first corners
+  std::vector<uint32_t> apexes_;  // scratch: those to try
+  uint32_t apexCount_ = 0;
+  Tried tried_;                 // scratch
+  std::vector<float> price_;    // of the edges before each corner, once it is needed
+  std::vector<Ranked> ranked_;  // scratch: by bound, first corners
 };
 
 }  // namespace sf
