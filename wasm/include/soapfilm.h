@@ -114,9 +114,9 @@ SfStatus sf_session_open(const double* positions, const uint32_t* ringStarts, ui
 ///           moves it
 ///   x, y    the place, for all but deletions
 ///   where   [4] out: nothing
-///   result  out: 0 uint32_t [7] the vertex's number, how many triangles there are now, and the status of the
-///           edit itself with ring and number of the edited vertex and of the culprit; 1 uint32_t [c]
-///           which triangles are new, and 2 uint32_t [3c] their corners
+///   result  out: 0 uint32_t [7 + 4c] the vertex's number, how many triangles there are now, and the status
+///           of the edit itself with ring and number of the edited vertex and of the culprit; then
+///           which c triangles are new, and [3c] their corners
 SF_API(sf_session_edit)
 SfStatus sf_session_edit(uint32_t session, uint32_t action, uint32_t vertex, double x, double y,
                          uint32_t* where, SfResult** result);

@@ -18,6 +18,9 @@ const kInsertIsolated = 1;
 const kDelete = 2;
 const kMove = 3;
 
+/** How many numbers `sf_session_edit` tells before those of the triangles. */
+const kFacts = 7;
+
 type Types = Parameters<typeof callCore>[3];
 
 /**
@@ -129,32 +132,37 @@ export class PolygonSession {
     if (!(Number.isInteger(vertex) && vertex >= 0 && vertex < 2 ** 32)) {
       throw new SoapfilmError('bad-option', `There is no vertex ${String(vertex)}`);
     }
-    const [[edited, triangleCount, status, ...where], changed, triangles] = this.#call(
+    const [told] = this.#call(
       'sf_session_edit',
       [this.#alive(), action, vertex, x, y],
-      [Uint32Array, Uint32Array, Uint32Array],
+      [Uint32Array],
     );
+    const [edited, triangleCount, status] = [told[0], told[1], told[2]];
+    const count = (told.length - kFacts) / 4;
+    const changed = told.slice(kFacts, kFacts + count);
+    const triangles = told.slice(kFacts + count);
     this.#count = 3 * triangleCount;
     if (this.#triangles.length < this.#count) {
       const larger = new Uint32Array(2 * this.#count);
       larger.set(this.#triangles);
       this.#triangles = larger;
     }
-    changed.forEach((t, i) => {
-      this.#triangles.set(triangles.subarray(3 * i, 3 * i + 3), 3 * t);
+    for (let i = 0; i < count; i++) {
+      const t = changed[i];
+      for (let k = 0; k < 3; k++) this.#triangles[3 * t + k] = triangles[3 * i + k];
       if (status !== 0) this.#untold.add(t);
-    });
-    if (status !== 0) throw ringError(status, where);
+    }
+    if (status !== 0) throw ringError(status, told.subarray(3, kFacts));
     if (this.#untold.size === 0) return { vertex: edited, triangleCount, changed, triangles };
     const all = Uint32Array.from([...this.#untold, ...changed].filter((t) => t < triangleCount));
     this.#untold.clear();
-    const told = [...new Set(all.sort())];
+    const names = [...new Set(all.sort())];
     return {
       vertex: edited,
       triangleCount,
-      changed: Uint32Array.from(told),
+      changed: Uint32Array.from(names),
       triangles: Uint32Array.from(
-        told.flatMap((t) => Array.from(this.#triangles.subarray(3 * t, 3 * t + 3))),
+        names.flatMap((t) => Array.from(this.#triangles.subarray(3 * t, 3 * t + 3))),
       ),
     };
   }
