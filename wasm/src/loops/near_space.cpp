@@ -17,10 +17,10 @@ constexpr size_t kPerVertexAndBridge = 6;
 /// By how much of the least cost the surfaces of those triangles may be dearer.
 constexpr double kDearer = 0.05, kDearerWithBridge = 0.4;
 /// Of the bridges tried, those whose triangles are taken: by cost, of all and of the valid ones.
-constexpr size_t kTaken = 7;
+constexpr size_t kTaken = 6;
 /// Vertices for each bridge that is tried: of a surface, and of short ones in two directions.
 constexpr uint32_t kVerticesPerBridge = 4, kVerticesPerShortBridge = 3;
-constexpr uint32_t kLeastBridges = 8, kMostBridges = 12;
+constexpr uint32_t kLeastBridges = 10, kMostBridges = 12;
 /// Vertices beyond which the chart of one loop is too dear, and the solution of two loops over triangles
 /// from several charts.
 constexpr uint32_t kMostVertices = 4000, kMostOfTwoLoops = 120;
