@@ -27,7 +27,7 @@ const change = (settings: Partial<Settings>) => {
 const kSpaces: readonly Choice<CandidateSpace>[] = [
   { value: 'auto', label: 'Auto', title: 'All triangles while that is quick, else Delaunay, then wider spaces' },
   { value: 'delaunay', label: 'Delaunay', title: 'The facets of the Delaunay tetrahedralization: fast, never crosses itself' },
-  { value: 'near', label: 'Near', title: 'Delaunay, and all triples of near neighbours' },
+  { value: 'near', label: 'Near', title: 'Delaunay facets, and triangles of surfaces near the best one' },
   { value: 'all', label: 'All', title: 'Every triple of vertices: the true optimum, for small curves' },
 ];
 
