@@ -11,6 +11,7 @@ import { measureSessions } from './polygon_sessions.mjs';
 import { angles, degrees, greedyStrips, maximumDegree } from './polygon_quality.mjs';
 import { goals, kColumns, row, exponents } from './polygon_report.mjs';
 import { kEngines } from './polygon_engines.mjs';
+import { watchMemory } from './watch_memory.mjs';
 
 /** Engines that are measured in turns with each other. */
 const kQuick = new Set([...Object.keys(kEngines).slice(0, 6), 'earcut', 'earcut, refined']);
@@ -22,24 +23,6 @@ const kDear = 2;
 const kVeryDear = 10;
 /** A case that takes longer is given up. */
 const kMostSeconds = 120;
-
-/** Watches the memory of the core's instances, which the package does not show: `peak()` bytes so far. */
-function watchMemory() {
-  const { Instance, instantiate } = WebAssembly;
-  let memory;
-  let peak = 0;
-  const look = () => (peak = Math.max(peak, memory?.buffer.byteLength ?? 0));
-  const keep = (instance) => {
-    look();
-    memory = instance.exports.memory;
-    return instance;
-  };
-  WebAssembly.Instance = function (...given) {
-    return keep(new Instance(...given));
-  };
-  WebAssembly.instantiate = async (...given) => keep(await instantiate(...given));
-  return look;
-}
 
 const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
 

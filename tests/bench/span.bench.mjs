@@ -5,6 +5,7 @@
 //                          "bestSoFar": limits or null }'
 import { readFileSync } from 'node:fs';
 import { load, parseLoops, SoapfilmError, spanLoops } from 'soapfilm';
+import { watchMemory } from './watch_memory.mjs';
 
 // The same in span.cpp.
 const kSecondsPerCase = 0.6;
@@ -35,25 +36,7 @@ function checksum(triangles) {
   return (hash >>> 0).toString(16).padStart(8, '0');
 }
 
-/** Watches the memory of the core's instances, which the package does not show: `peak()` bytes so far. */
-function watchMemory() {
-  const { Instance, instantiate } = WebAssembly;
-  let memory;
-  let peak = 0;
-  const look = () => (peak = Math.max(peak, memory?.buffer.byteLength ?? 0));
-  const keep = (instance) => {
-    look();
-    memory = instance.exports.memory;
-    return instance;
-  };
-  WebAssembly.Instance = function (...given) {
-    return keep(new Instance(...given));
-  };
-  WebAssembly.instantiate = async (...given) => keep(await instantiate(...given));
-  return { peak: look };
-}
-
-const memory = watchMemory();
+const peak = watchMemory();
 await load({ parts: ['loops'] });
 const { curves, space, objective, weights, bestSoFar } = JSON.parse(process.argv[2]);
 const loops = parseLoops(readFileSync(curves));
@@ -87,7 +70,7 @@ function measure() {
     span = spanLoops(loops, options);
     first ??= byClock() - clock;
     seconds.push(now() - start);
-    memory.peak();
+    peak();
   } while (!isEnough(seconds));
   return { first, seconds, ...describe(span) };
 }
@@ -97,7 +80,7 @@ function describe(span) {
   const { candidates, domains, minimalSets, peakBytes } = span.stats;
   return {
     peakBytes,
-    processBytes: memory.peak(),
+    processBytes: peak(),
     found: span.found,
     optimal,
     cost,

@@ -108,7 +108,6 @@ std::string faultOfTriangulators(const Polygon& polygon) {
 std::string faultOfRepair(const Polygon& polygon, sf::Repair rule) {
   sf::PolygonOptions options;
   options.repair = rule;
-  double areas[2];
   for (const auto method : {sf::PolygonMethod::Flooding, sf::PolygonMethod::Trapezoids}) {
     sf::PolygonTriangulation result;
     sf::Work work;

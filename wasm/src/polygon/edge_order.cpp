@@ -25,8 +25,6 @@ bool isIndexed(uint32_t e) { return priorityOf(e) % kPerIndexed == 0; }
 
 void EdgeOrder::reset(size_t capacity, double least, double greatest) {
   if (edges_.size() < capacity) edges_.resize(capacity);
-  free_.clear();
-  used_ = 0;
   root_ = leftmost_ = kNone;
   hasTree_ = capacity > kFew;
   if (!hasTree_) return;
@@ -91,15 +89,8 @@ bool EdgeOrder::findFrom(uint32_t e, Point2 p, uint32_t& left, uint32_t& right) 
   return false;
 }
 
-uint32_t EdgeOrder::insertAfter(uint32_t left) {
-  uint32_t e;
-  if (free_.empty()) {
-    e = uint32_t(used_++);
-    SF_ASSERT(e < edges_.size());
-  } else {
-    e = free_.back();
-    free_.pop_back();
-  }
+void EdgeOrder::insertAfter(uint32_t left, uint32_t e) {
+  SF_ASSERT(e < edges_.size());
   CrossedEdge& edge = edges_[e];
   const uint32_t right = left == kNone ? leftmost_ : edges_[left].right;
   edge.left = left, edge.right = right;
@@ -107,7 +98,6 @@ uint32_t EdgeOrder::insertAfter(uint32_t left) {
   (left == kNone ? leftmost_ : edges_[left].right) = e;
   if (right != kNone) edges_[right].left = e;
   if (hasTree_ && isIndexed(e)) index(e);
-  return e;
 }
 
 /// Puts an edge into the tree, next to the nearest edge to its left that is there.
@@ -171,7 +161,6 @@ void EdgeOrder::remove(uint32_t e) {
   const uint32_t left = edges_[e].left, right = edges_[e].right;
   (left == kNone ? leftmost_ : edges_[left].right) = right;
   if (right != kNone) edges_[right].left = left;
-  free_.push_back(e);
 }
 
 }  // namespace sf

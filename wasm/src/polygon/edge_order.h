@@ -45,8 +45,10 @@ class EdgeOrder {
     if (hasTree_) near_[columnOf(x)] = e;
   }
 
-  /// A new record directly right of `left`, or leftmost if that is kNone. O(log n) expected.
-  uint32_t insertAfter(uint32_t left);
+  /// Puts record e, not in use, directly right of `left`, or leftmost if that is kNone. The caller
+  /// chooses: records next to each other in the order are best next to each other in memory. O(log n)
+  /// expected.
+  void insertAfter(uint32_t left, uint32_t e);
   /// Takes a record out. O(log n) expected.
   void remove(uint32_t e);
 
@@ -64,10 +66,8 @@ class EdgeOrder {
   bool findFrom(uint32_t e, Point2 p, uint32_t& left, uint32_t& right) const;
 
   std::vector<CrossedEdge> edges_;
-  std::vector<uint32_t> free_;
   std::vector<uint32_t> near_;
   double least_ = 0, columnsPerX_ = 0;
-  size_t used_ = 0;
   bool hasTree_ = false;
   uint32_t root_ = kNone, leftmost_ = kNone;
 };

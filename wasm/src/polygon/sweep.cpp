@@ -125,6 +125,9 @@ bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility&
   // Edges come into the order in pairs, at local minima alone.
   edges.reset(2 * minima, least.x, greatest.x);
   ending.resize(2 * m);
+  records.clear();
+  for (uint32_t v = 0, e = 0; v < m; ++v)
+    if (linked.kind[v] == VertexKind::Bottom) ending[2 * size_t(v)] = e, e += 2;
   seen->order.clear();
   seen->left.resize(m);
   if (!sagsOnly) {
@@ -174,11 +177,15 @@ void State::touchAhead(size_t i, size_t end) {
   const uint32_t* next = loops->next.data();
   const uint32_t* prev = loops->prev.data();
   uint64_t sum = 0;
-  for (; i < end; ++i) {
-    const uint32_t v = events[i].node;
-    const uint32_t e = ending[2 * size_t(v) + (events[i].kind == VertexKind::LeftBank)];
-    sum += next[v] + prev[v] + (loops->at[v].x > 0);
-    if (e < edges.capacity()) sum += edges[e].left;
+  for (size_t k = i; k < end; ++k) {
+    const uint32_t v = events[k].node;
+    const uint32_t e = ending[2 * size_t(v) + (events[k].kind == VertexKind::LeftBank)];
+    sum += (loops->at[next[v]].x > 0) + (loops->at[prev[v]].x > 0);
+    if (e < edges.capacity()) {
+      const uint32_t l = edges[e].left, r = edges[e].right;
+      if (l < edges.capacity()) sum += edges[l].lower;
+      if (r < edges.capacity()) sum += edges[r].lower;
+    }
   }
   touched += sum;
 }
@@ -273,7 +280,8 @@ bool State::passMinimum(const Event& event) {
   if (concave != isInside(left)) misplace(v, inputOf(left));
   if (concave) loops->kind[v] = VertexKind::Sag;
   see(v, concave || sagsOnly ? left : kNone, concave ? right : kNone);
-  const uint32_t a = edges.insertAfter(left), b = edges.insertAfter(a);
+  const uint32_t a = ending[2 * size_t(v)], b = a + 1;
+  edges.insertAfter(left, a), edges.insertAfter(a, b);
   set(concave ? b : a, v, prev, prev, true);
   set(concave ? a : b, v, next, v, false);
   return true;

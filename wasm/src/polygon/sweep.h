@@ -2,7 +2,7 @@
 // touches, and tells for every vertex which edges lie directly to its left and right.
 //
 // Source: Shamos, Hoey 1976, "Geometric intersection problems", for the order of edges along the
-// sweep line; Kumar 1998, sec. 4 and 4.2, for horizontal visibility lines whose two ends contradict
+// sweep line; Kumar, sec. 4 and 4.2, for horizontal visibility lines whose two ends contradict
 // each other as the mark of a polygon that is not simple; Ronfard, Rossignac 1994, sec. 1, for the
 // loops at non-manifold vertices.
 // Differs: only vertices are tested against the edges next to them, never edges against edges. Two

@@ -28,8 +28,11 @@ struct SweepState {
   EdgeOrder edges;
   std::vector<Event> events, unsorted;
   std::vector<uint32_t> buckets;
-  std::vector<uint32_t> ending;  // [2m] the record of the edge that ends at node v from below: 2v
-                                 // for one that leads up, 2v+1 for one that leads down
+  std::vector<uint32_t> ending;   // [2m] the record of the edge that ends at node v from below: 2v
+                                  // for one that leads up, 2v+1 for one that leads down; of a local
+                                  // minimum, where none ends, 2v: the first of the two records kept
+                                  // for the edges that begin there
+  std::vector<uint32_t> records;  // free ones of minima where loops touch
   std::vector<uint8_t> reversed;
   std::vector<HalfEdge> lower, upper;
   std::vector<uint32_t> strands;
@@ -69,6 +72,7 @@ struct SweepState {
   bool alternates(uint32_t left);
   void relink(uint32_t left, uint32_t right);
   void corner(VertexKind kind, const HalfEdge& in, HalfEdge& out, uint32_t left, uint32_t right);
+  uint32_t takeRecord();
   void replaceBlock(uint32_t first, uint32_t left);
   bool reportDisorder(Point2 at);
 

@@ -57,6 +57,10 @@ bool State::findBlock(size_t i, size_t count, uint32_t& first, uint32_t& last, u
   for (size_t k = 0; k < count; ++k) {
     const uint32_t v = events[i + k].node;
     const VertexKind kind = loops->kind[v];
+    if (kind == VertexKind::Bottom) {
+      const uint32_t e = ending[2 * size_t(v)];
+      records.insert(records.end(), {e, e + 1});
+    }
     const bool up = kind == VertexKind::RightBank || kind == VertexKind::Ceiling;
     const bool down = kind == VertexKind::LeftBank || kind == VertexKind::Ceiling;
     ends += size_t(up) + size_t(down);
@@ -217,6 +221,15 @@ void State::corner(VertexKind kind, const HalfEdge& in, HalfEdge& out, uint32_t 
   if (!sagsOnly || kind == VertexKind::Sag || kind == VertexKind::Bottom) see(v, left, right);
 }
 
+/// A record for an edge that begins at the point. At most two a local minimum are needed there, as many
+/// as are kept for it.
+uint32_t State::takeRecord() {
+  SF_ASSERT(!records.empty());
+  const uint32_t e = records.back();
+  records.pop_back();
+  return e;
+}
+
 /// Puts the half-edges above the point in the places of those below it.
 void State::replaceBlock(uint32_t first, uint32_t left) {
   size_t old = lower.size();
@@ -226,13 +239,14 @@ void State::replaceBlock(uint32_t first, uint32_t left) {
     if (old > 0)
       --old, e = edges[e].right;
     else
-      place = edges.insertAfter(before);
+      edges.insertAfter(before, place = takeRecord());
     set(place, half.node, half.other, half.input, half.down);
     before = place;
   }
   for (; old > 0; --old) {
     const uint32_t next = edges[e].right;
     edges.remove(e);
+    records.push_back(e);
     e = next;
   }
 }

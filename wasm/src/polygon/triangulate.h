@@ -1,5 +1,5 @@
 // Triangulation of polygons with holes. The one entry to src/polygon for polygons from outside.
-// Source: Ronfard, Rossignac 1994 (flooding); Kumar 1998, sec. 4 (trapezoids).
+// Source: Ronfard, Rossignac 1994 (flooding); Kumar, sec. 4 (trapezoids).
 #pragma once
 #include <cstdint>
 #include <memory>
