@@ -49,7 +49,7 @@ export class PolygonSession {
     checkNames(options, { maxMemoryBytes: true });
     const maxBytes = checkLimits(options);
     const { positions, ringStarts, points, dim } = toFlatPolygon(polygon);
-    if (dim === 3) throw new SoapfilmError('bad-polygon', 'Polygons of sessions lie in the plane');
+    if (dim === 3) throw new SoapfilmError('bad-polygon', 'Sessions lie in the plane');
     if (home.lost) [home, open] = [new Home('polygons'), 0];
     this.#home = home;
     const [[number], triangles] = this.#call(
@@ -121,7 +121,7 @@ export class PolygonSession {
 
   #alive(): number {
     if (this.#number !== undefined) return this.#number;
-    throw new SoapfilmError('disposed', 'The session has been disposed of');
+    throw new SoapfilmError('disposed', 'The session is disposed of');
   }
 
   #call<const T extends Types>(name: string, args: readonly CoreArgument[], types: T): Arrays<T> {
@@ -129,7 +129,7 @@ export class PolygonSession {
   }
 
   #edit(action: number, vertex: number, x: number, y: number): PolygonEdit {
-    if (!(Number.isInteger(vertex) && vertex >= 0 && vertex < 2 ** 32)) {
+    if (vertex >>> 0 !== vertex) {
       throw new SoapfilmError('bad-option', `There is no vertex ${String(vertex)}`);
     }
     const [told] = this.#call(
@@ -137,10 +137,11 @@ export class PolygonSession {
       [this.#alive(), action, vertex, x, y],
       [Uint32Array],
     );
-    const [edited, triangleCount, status] = [told[0], told[1], told[2]];
+    const triangleCount = told[1];
+    const status = told[2];
     const count = (told.length - kFacts) / 4;
-    const changed = told.slice(kFacts, kFacts + count);
-    const triangles = told.slice(kFacts + count);
+    let changed = told.slice(kFacts, kFacts + count);
+    let triangles = told.slice(kFacts + count);
     this.#count = 3 * triangleCount;
     if (this.#triangles.length < this.#count) {
       const larger = new Uint32Array(2 * this.#count);
@@ -153,17 +154,16 @@ export class PolygonSession {
       if (status !== 0) this.#untold.add(t);
     }
     if (status !== 0) throw ringError(status, told.subarray(3, kFacts));
-    if (this.#untold.size === 0) return { vertex: edited, triangleCount, changed, triangles };
-    const all = Uint32Array.from([...this.#untold, ...changed].filter((t) => t < triangleCount));
-    this.#untold.clear();
-    const names = [...new Set(all.sort())];
-    return {
-      vertex: edited,
-      triangleCount,
-      changed: Uint32Array.from(names),
-      triangles: Uint32Array.from(
-        names.flatMap((t) => Array.from(this.#triangles.subarray(3 * t, 3 * t + 3))),
-      ),
-    };
+    if (this.#untold.size > 0) {
+      const names = new Set([...this.#untold, ...changed]);
+      changed = Uint32Array.from(names)
+        .filter((t) => t < triangleCount)
+        .sort();
+      triangles = new Uint32Array(3 * changed.length);
+      let at = 0;
+      for (const t of changed) for (let k = 0; k < 3; k++) triangles[at++] = this.#triangles[3 * t + k];
+      this.#untold.clear();
+    }
+    return { vertex: told[0], triangleCount, changed, triangles };
   }
 }
