@@ -49,7 +49,7 @@ export class PolygonSession {
     checkNames(options, { maxMemoryBytes: true });
     const maxBytes = checkLimits(options);
     const { positions, ringStarts, points, dim } = toFlatPolygon(polygon);
-    if (dim === 3) throw new SoapfilmError('bad-polygon', 'Sessions lie in the plane');
+    if (dim === 3) throw new SoapfilmError('bad-polygon', 'Sessions take 2D polygons');
     if (home.lost) [home, open] = [new Home('polygons'), 0];
     this.#home = home;
     const [[number], triangles] = this.#call(
