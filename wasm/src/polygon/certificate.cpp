@@ -103,14 +103,13 @@ bool boundsRings(const Certificate& c, bool frame, Work& work) {
   for (uint32_t h = 0; h < triangles.size(); ++h) {
     const uint32_t u = triangles[h], v = triangles[nextInTriangle(h)];
     const uint32_t g = h < twins.size() ? twins[h] : kNone;
-    if (g == kNone)
+    if (g == kNone) {
       add(c.same[u], c.same[v]);
-    else if (g >= triangles.size() || g >= twins.size() || twins[g] != h)
-      return false;
-    else if (g < h)
-      continue;  // the two have cancelled
-    else if (triangles[g] != v || triangles[nextInTriangle(g)] != u)
-      return false;
+      continue;
+    }
+    if (g >= triangles.size() || g >= twins.size() || twins[g] != h) return false;
+    // Looked at once, from the first of the two.
+    if (g >= h && (triangles[g] != v || triangles[nextInTriangle(g)] != u)) return false;
   }
   for (const uint32_t v : wanted)
     if (v != kNone) return false;

@@ -26,6 +26,7 @@ bool isIndexed(uint32_t e) { return priorityOf(e) % kPerIndexed == 0; }
 void EdgeOrder::reset(size_t capacity, double least, double greatest) {
   if (edges_.size() < capacity) edges_.resize(capacity);
   root_ = leftmost_ = kNone;
+  size_ = 0;
   hasTree_ = capacity > kFew;
   if (!hasTree_) return;
   least_ = least;
@@ -91,6 +92,7 @@ bool EdgeOrder::findFrom(uint32_t e, Point2 p, uint32_t& left, uint32_t& right) 
 
 void EdgeOrder::insertAfter(uint32_t left, uint32_t e) {
   SF_ASSERT(e < edges_.size());
+  ++size_;
   CrossedEdge& edge = edges_[e];
   const uint32_t right = left == kNone ? leftmost_ : edges_[left].right;
   edge.left = left, edge.right = right;
@@ -157,6 +159,7 @@ void EdgeOrder::unindex(uint32_t e) {
 
 void EdgeOrder::remove(uint32_t e) {
   edges_[e].lower = kNone;
+  --size_;
   if (hasTree_ && isIndexed(e)) unindex(e);
   const uint32_t left = edges_[e].left, right = edges_[e].right;
   (left == kNone ? leftmost_ : edges_[left].right) = right;

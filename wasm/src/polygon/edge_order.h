@@ -34,6 +34,8 @@ class EdgeOrder {
   CrossedEdge& operator[](uint32_t e) { return edges_[e]; }
   const CrossedEdge& operator[](uint32_t e) const { return edges_[e]; }
   size_t capacity() const { return edges_.size(); }
+  /// How many edges there are now.
+  size_t size() const { return size_; }
   uint32_t leftmost() const { return leftmost_; }
   /// The edges that p lies between, kNone at the ends; true, with `left` an edge through p, if there
   /// is one. O(log n) expected, O(1) if `hint` is an edge close to p; it may be kNone.
@@ -69,6 +71,7 @@ class EdgeOrder {
   std::vector<uint32_t> near_;
   double least_ = 0, columnsPerX_ = 0;
   bool hasTree_ = false;
+  size_t size_ = 0;
   uint32_t root_ = kNone, leftmost_ = kNone;
 };
 

@@ -176,16 +176,20 @@ void State::sortEvents(double least, double greatest) {
 void State::touchAhead(size_t i, size_t end) {
   const uint32_t* next = loops->next.data();
   const uint32_t* prev = loops->prev.data();
+  // Neighbours of few edges are at hand anyway.
+  const bool many = edges.size() > kFarApart;
   uint64_t sum = 0;
-  for (size_t k = i; k < end; ++k) {
-    const uint32_t v = events[k].node;
-    const uint32_t e = ending[2 * size_t(v) + (events[k].kind == VertexKind::LeftBank)];
+  for (; i < end; ++i) {
+    const uint32_t v = events[i].node;
+    const uint32_t e = ending[2 * size_t(v) + (events[i].kind == VertexKind::LeftBank)];
+    sum += next[v] + prev[v];
+    if (e >= edges.capacity()) continue;
+    const uint32_t left = edges[e].left, right = edges[e].right;
+    sum += left;
+    if (!many) continue;
     sum += (loops->at[next[v]].x > 0) + (loops->at[prev[v]].x > 0);
-    if (e < edges.capacity()) {
-      const uint32_t l = edges[e].left, r = edges[e].right;
-      if (l < edges.capacity()) sum += edges[l].lower;
-      if (r < edges.capacity()) sum += edges[r].lower;
-    }
+    if (left < edges.capacity()) sum += edges[left].lower;
+    if (right < edges.capacity()) sum += edges[right].lower;
   }
   touched += sum;
 }
