@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/predicates.h"
+#include "base/sort.h"
 
 namespace sf {
 
@@ -47,7 +48,7 @@ bool sortedFacets(const Tetrahedralization& cells, Work& work, std::vector<uint3
   facets.reserve(3 * count);
   for (uint32_t a = 0, from = 0; a < n && work.tick(30 * (start[a] - from) + 1); ++a) {
     // Filling moved each start to the next one.
-    std::sort(rest.begin() + from, rest.begin() + start[a]);
+    sf::sort(rest.begin() + from, rest.begin() + start[a]);
     for (; from < start[a]; ++from) facets.insert(facets.end(), {a, rest[from].b, rest[from].c});
   }
   work.release(bytes);

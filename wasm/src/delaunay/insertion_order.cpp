@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/sort.h"
+
 namespace sf {
 namespace {
 
@@ -98,7 +100,7 @@ bool sortForInsertion(ArrayView<const Vec3> points, Work& work, std::vector<uint
     keys[i].place = uint64_t(round) << (3 * kBits) ^ hilbertPlace(cell(p.x), cell(p.y), cell(p.z));
     keys[i].number = order[i];
   }
-  std::sort(keys.begin(), keys.end());
+  sf::sort(keys.begin(), keys.end());
   for (size_t i = 0; i < order.size(); ++i) order[i] = keys[i].number;
   work.release(bytes);
   return true;

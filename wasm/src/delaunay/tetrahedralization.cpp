@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/predicates.h"
+#include "base/sort.h"
 #include "delaunay/insertion_order.h"
 
 namespace sf {
@@ -68,7 +69,7 @@ bool Tetrahedralization::startFrom(std::vector<uint32_t>& order) {
     dimension_ = n == 1 ? 0 : 1;
     if (!reserve(line_, n)) return false;
     line_ = order;
-    std::sort(line_.begin(), line_.end(), [&](uint32_t a, uint32_t b) {
+    sf::sort(line_.begin(), line_.end(), [&](uint32_t a, uint32_t b) {
       const Vec3 &u = points_[a], &v = points_[b];
       return u.x != v.x ? u.x < v.x : u.y != v.y ? u.y < v.y : u.z < v.z;
     });

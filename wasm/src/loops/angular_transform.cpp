@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/sort.h"
+
 namespace sf {
 namespace {
 
@@ -165,8 +167,8 @@ void AngularTransform::ranges(const double* innerTheta, const double* base, size
   // Three turns of the circle, sorted, so that no range wraps.
   order_.resize(inner);
   for (size_t i = 0; i < inner; ++i) order_[i] = uint32_t(i);
-  std::sort(order_.begin(), order_.end(),
-            [&](uint32_t a, uint32_t b) { return innerTheta[a] < innerTheta[b]; });
+  sf::sort(order_.begin(), order_.end(),
+           [&](uint32_t a, uint32_t b) { return innerTheta[a] < innerTheta[b]; });
   theta_.clear();
   before_.clear();
   after_.clear();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/sort.h"
+
 namespace sf {
 namespace {
 
@@ -30,7 +32,7 @@ std::vector<EdgeUse> edgeUses(const CandidateSet& set, const SplitOrder& order) 
   std::vector<EdgeUse> uses;
   for (const uint32_t t : order)
     for (int i = 0; i < 3; ++i) uses.push_back({set.triangleEdges[3 * size_t(t) + i], t});
-  std::sort(uses.begin(), uses.end());
+  sf::sort(uses.begin(), uses.end());
   return uses;
 }
 
@@ -89,7 +91,7 @@ void CutProblem::addCopy(uint32_t t, const uint32_t place[3],
   }
   if (cost == kInfinity) return;
   uint32_t sorted[3] = {place[0], place[1], place[2]};
-  std::sort(sorted, sorted + 3);
+  sf::sort(sorted, sorted + 3);
   triples_.insert(triples_.end(), sorted, sorted + 3);
   parent_.push_back(t);
   cost_.push_back(cost);

@@ -5,6 +5,7 @@
 #include "base/accurate_cross.h"
 #include "base/charge.h"
 #include "base/predicates.h"
+#include "base/sort.h"
 #include "loops/weight.h"
 
 namespace sf {
@@ -20,7 +21,7 @@ struct Triple {
 
 Triple sorted(uint32_t a, uint32_t b, uint32_t c) {
   Triple t{{a, b, c}};
-  std::sort(t.v, t.v + 3);
+  sf::sort(t.v, t.v + 3);
   return t;
 }
 
@@ -31,7 +32,7 @@ bool isTriangle(const LoopSet& loops, const Triple& t) {
 /// Appends the distinct, non-collinear triples, in increasing order.
 void appendDistinct(const LoopSet& loops, std::vector<Triple>& triples,
                     std::vector<uint32_t>& out) {
-  std::sort(triples.begin(), triples.end());
+  sf::sort(triples.begin(), triples.end());
   triples.erase(std::unique(triples.begin(), triples.end()), triples.end());
   for (const Triple& t : triples)
     if (isTriangle(loops, t)) out.insert(out.end(), t.v, t.v + 3);
@@ -59,11 +60,11 @@ void nearestVertices(const LoopSet& loops, const std::vector<uint32_t>& start,
     const uint32_t w = neighbours[i];
     near.insert(near.end(), neighbours.begin() + start[w], neighbours.begin() + start[w + 1]);
   }
-  std::sort(near.begin(), near.end());
+  sf::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
   near.erase(std::remove(near.begin(), near.end(), v), near.end());
   const Vec3 p = loops.position(v);
-  std::sort(near.begin(), near.end(), [&](uint32_t a, uint32_t b) {
+  sf::sort(near.begin(), near.end(), [&](uint32_t a, uint32_t b) {
     const double da = distance(p, loops.position(a)), db = distance(p, loops.position(b));
     return da < db || (da == db && a < b);
   });
@@ -273,7 +274,7 @@ Outcome givenTriples(const LoopSet& loops, ArrayView<const uint32_t> triangles, 
       return bad(uint32_t(f / 3));
     all.push_back({t, uint32_t(f / 3)});
   }
-  std::sort(all.begin(), all.end(), [](const Numbered& a, const Numbered& b) {
+  sf::sort(all.begin(), all.end(), [](const Numbered& a, const Numbered& b) {
     return a.triple < b.triple || (a.triple == b.triple && a.index < b.index);
   });
   uint32_t firstRepeated = kNone;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/sort.h"
+
 namespace sf {
 namespace {}  // namespace
 
@@ -150,7 +152,7 @@ bool ExactSolver::open(uint32_t domain) {
     });
   }
   if (!pass_.work.going()) return false;
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+  sf::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.bound < b.bound || (a.bound == b.bound && std::make_pair(a.slot, a.ordinal) <
                                                            std::make_pair(b.slot, b.ordinal));
   });
@@ -186,7 +188,7 @@ void ExactSolver::criticalSpanningEdges(Shape shape, std::vector<uint32_t>& edge
         pass_.set.edgeBetween(domains_.spanStart(shape, i), domains_.spanEnd(shape, i));
     if (isCritical(e)) edges.push_back(e);
   }
-  std::sort(edges.begin(), edges.end());
+  sf::sort(edges.begin(), edges.end());
 }
 
 bool ExactSolver::makeParts(const Frame& frame, const Candidate& candidate) {
@@ -366,7 +368,7 @@ bool ExactSolver::addCriticalEdges(const SplitOrder& order) {
   for (const uint32_t t : order)
     edges.insert(edges.end(), &pass_.set.triangleEdges[3 * size_t(t)],
                  &pass_.set.triangleEdges[3 * size_t(t)] + 3);
-  std::sort(edges.begin(), edges.end());
+  sf::sort(edges.begin(), edges.end());
   bool any = false;
   for (size_t i = 0; i < edges.size();) {
     size_t j = i;
@@ -379,7 +381,7 @@ bool ExactSolver::addCriticalEdges(const SplitOrder& order) {
     }
     i = j;
   }
-  std::sort(critical_.begin(), critical_.end());
+  sf::sort(critical_.begin(), critical_.end());
   return any;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/sort.h"
+
 namespace sf {
 
 std::vector<double> leastPairs(const CandidateSet& set, Measure measure) {
@@ -13,7 +15,7 @@ std::vector<double> leastPairs(const CandidateSet& set, Measure measure) {
     for (uint32_t s = set.edgeSlots[e]; s < set.edgeSlots[e + 1]; ++s)
       around.push_back({set.slotTheta[s], s});
     if (around.size() < 2) continue;
-    std::sort(around.begin(), around.end());
+    sf::sort(around.begin(), around.end());
     // The flattest partner stands nearest to the opposite direction, on one side or the other.
     for (const auto& [theta, slot] : around) {
       const double opposite = theta > 0 ? theta - kPi : theta + kPi;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort.h"
 #include "loops/polygon_chart.h"
 #include "loops/weight.h"
 
@@ -117,7 +118,7 @@ bool BridgeSearch::isValid(const Corners& corners,
       const uint32_t a = corners[t.corner[i]].vertex, b = corners[t.corner[(i + 1) % 3]].vertex;
       edges_.push_back({std::min(a, b), std::max(a, b)});
     }
-  std::sort(edges_.begin(), edges_.end());
+  sf::sort(edges_.begin(), edges_.end());
   for (size_t i = 0; i < edges_.size();) {
     size_t end = i + 1;
     while (end < edges_.size() && edges_[end] == edges_[i]) ++end;
@@ -181,7 +182,7 @@ bool BridgeSearch::attemptThose(ArrayView<const uint32_t> surface) {
     if (loops_.loopOf(u) < loops_.loopOf(v)) bridges.push_back({u, v});
   }
   // In the order in which they follow each other around.
-  std::sort(bridges.begin(), bridges.end());
+  sf::sort(bridges.begin(), bridges.end());
   bridges.erase(std::unique(bridges.begin(), bridges.end()), bridges.end());
   const size_t count = std::min<size_t>(
       bridges.size(),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/sort.h"
 #include "loops/fan_bound.h"
 #include "loops/fan_filter.h"
 
@@ -93,7 +94,7 @@ bool PassSolver::solveWhatIsLeft(FanBound& fans, const std::vector<double>& exce
   std::vector<uint32_t> byExcess;
   for (uint32_t t = 0; t < excess.size(); ++t)
     if (excess[t] < kInfinity) byExcess.push_back(t);
-  std::sort(byExcess.begin(), byExcess.end(), [&](uint32_t a, uint32_t b) {
+  sf::sort(byExcess.begin(), byExcess.end(), [&](uint32_t a, uint32_t b) {
     return excess[a] < excess[b] || (excess[a] == excess[b] && a < b);
   });
   const auto left = [&] {
@@ -106,7 +107,7 @@ bool PassSolver::solveWhatIsLeft(FanBound& fans, const std::vector<double>& exce
   for (;;) {
     const size_t tried = std::min(left(), size_t(share_ * wanted) + 1);
     std::vector<uint32_t> kept(byExcess.begin(), byExcess.begin() + std::ptrdiff_t(tried));
-    std::sort(kept.begin(), kept.end());
+    sf::sort(kept.begin(), kept.end());
     bool reached;
     if (!solveSubset(kept, maxSplits, reached)) return false;
     raise(fans.lowerBound());

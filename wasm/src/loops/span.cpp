@@ -6,6 +6,7 @@
 
 #include "base/accurate_cross.h"
 #include "base/predicates.h"
+#include "base/sort.h"
 #include "delaunay/delaunay.h"
 #include "loops/candidate_set.h"
 #include "loops/edge_protection.h"
@@ -507,7 +508,7 @@ void windConsistently(const LoopSet& loops, const CandidateSet& set,
   for (uint32_t i = 0; i < triangles.size(); ++i)
     for (int j = 0; j < 3; ++j)
       uses.push_back({set.triangleEdges[3 * size_t(triangles[i]) + j], i});
-  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
+  sf::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
     return a.edge < b.edge || (a.edge == b.edge && a.triangle < b.triangle);
   });
   // The sign with which an increasing triple passes its edge from the lower to the higher end.
@@ -568,7 +569,7 @@ void Spanning::measure(const Problem& problem, const CandidateSet& set,
     }
   }
   // Slots of one edge are consecutive, so that the two triangles at an inner edge come together.
-  std::sort(slots.begin(), slots.end());
+  sf::sort(slots.begin(), slots.end());
   auto edgeOf = [&](uint32_t slot) {
     return set.edgeOpposite(set.slotTriangle[slot], set.slotApex[slot]);
   };
@@ -591,7 +592,7 @@ void Spanning::measure(const Problem& problem, const CandidateSet& set,
 void Spanning::handBack(const Problem& problem, const CandidateSet& set, const Surface& surface,
                         const std::vector<double>& own) {
   std::vector<uint32_t> triangles = surface.order;
-  std::sort(triangles.begin(), triangles.end());
+  sf::sort(triangles.begin(), triangles.end());
   result_.found = true;
   result_.optimal = surface.optimal;
   windConsistently(problem.loops, set, triangles, result_.triangles);

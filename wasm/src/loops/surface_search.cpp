@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/sort.h"
 #include "loops/lower_bound.h"
 
 namespace sf {
@@ -128,7 +129,7 @@ void SurfaceSearch::lookAtBest() {
 
 std::vector<uint32_t> SurfaceSearch::chooseBridges(std::vector<Bridge>& byKey,
                                                    uint32_t trees) const {
-  std::sort(byKey.begin(), byKey.end(), [](const Bridge& a, const Bridge& b) {
+  sf::sort(byKey.begin(), byKey.end(), [](const Bridge& a, const Bridge& b) {
     return a.key < b.key || (a.key == b.key && a.edge < b.edge);
   });
   std::vector<uint32_t> chosen;
@@ -140,7 +141,7 @@ std::vector<uint32_t> SurfaceSearch::chooseBridges(std::vector<Bridge>& byKey,
       chosen.push_back(b.edge);
   }
   if (forest.trees() > trees) chosen.clear();
-  std::sort(chosen.begin(), chosen.end());
+  sf::sort(chosen.begin(), chosen.end());
   return chosen;
 }
 
@@ -242,7 +243,7 @@ bool SurfaceSearch::startFrom(ArrayView<const uint32_t> triangles) {
       const uint32_t e = set.edgeBetween(triangles[i + j], triangles[i + (j + 1) % 3]);
       if (e != kNone) edges.push_back(e);
     }
-  std::sort(edges.begin(), edges.end());
+  sf::sort(edges.begin(), edges.end());
   const BridgeCut cut = cutAtRandom(edges);
   return cut.isEmpty() || solveCut(cut, kUnlimited);
 }

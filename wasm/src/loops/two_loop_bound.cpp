@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/sort.h"
+
 namespace sf {
 
 TwoLoopBound::TwoLoopBound(const Pass& pass, uint32_t rootVertex)
@@ -60,8 +62,8 @@ bool TwoLoopBound::buildIncidences() {
                                                          : segmentValue(t, u, apex, v));
         incidences_.push_back(at);
       }
-      std::sort(incidences_.begin() + std::ptrdiff_t(first), incidences_.end(),
-                [](const Incidence& x, const Incidence& y) { return x.theta < y.theta; });
+      sf::sort(incidences_.begin() + std::ptrdiff_t(first), incidences_.end(),
+               [](const Incidence& x, const Incidence& y) { return x.theta < y.theta; });
       firstIncidence_[number + 1] = incidences_.size();
       if (!pass_.work.tick(uint32_t(100 * (incidences_.size() - first)) + 10)) return false;
     }
