@@ -1,6 +1,6 @@
 // Threads, the calls that wait for them, and what becomes of both when a call ends early.
 import { SoapfilmError } from './errors.js';
-import type { Modules } from './load.js';
+import type { Modules } from './compile.js';
 import { buffersOf, copyOf, unpackError, type Calls, type Reply, type Request } from './protocol.js';
 import { startThread, type Thread } from './thread.js';
 import type { ProgressListener } from './types.js';

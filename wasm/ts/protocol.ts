@@ -1,7 +1,7 @@
 // What the pool and its threads say to each other.
 import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
 import type { triangulateGeoJSON } from './geojson.js';
-import type { Modules } from './load.js';
+import type { Modules } from './compile.js';
 import type { spanLoops } from './loops.js';
 import type { triangulatePolygon, triangulatePolygons } from './polygon.js';
 

@@ -2,7 +2,7 @@
 // The entry `soapfilm/worker`: the library's functions in threads of their own.
 import { SoapfilmError } from './errors.js';
 import { kDispose } from './dispose.js';
-import { compile } from './load.js';
+import { compile } from './compile.js';
 import { checkNames, kLoadOptions, kPolygonOptions, kPolygonsOptions, kSpanOptions } from './options.js';
 import { Pool } from './pool.js';
 import { unpackErrors, type Calls } from './protocol.js';
