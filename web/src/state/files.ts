@@ -1,5 +1,5 @@
 // Files in and out: opening loops, saving loops, surfaces and pictures.
-import { formatLoops, formatObj, parseLoops, SoapfilmError } from 'soapfilm';
+import { SoapfilmError } from 'soapfilm';
 import { fromLoopSet, toLoopSet } from './document.ts';
 import type { Example } from './gallery.ts';
 import { isStale, surface } from './solving.ts';
@@ -8,6 +8,9 @@ import { dispatch, doc, requestFrame, say } from './store.ts';
 /** Files beyond this are not curves drawn by anyone. */
 const kMaxBytes = 64 * 2 ** 20;
 
+type Formats = typeof import('./formats.ts');
+const fetchFormats = (): Promise<Formats> => import('./formats.ts');
+
 /** Opens a `.curve`, JSON or OBJ file in place of the document; says what is wrong if it cannot. */
 export async function openFile(file: File): Promise<void> {
   if (file.size > kMaxBytes) {
@@ -15,6 +18,7 @@ export async function openFile(file: File): Promise<void> {
     return;
   }
   try {
+    const { parseLoops } = await fetchFormats();
     const loops = parseLoops(new Uint8Array(await file.arrayBuffer()));
     const curves = fromLoopSet(loops);
     dispatch({ type: 'open', name: loops.name ?? file.name.replace(/\.[^.]*$/, ''), curves });
@@ -43,7 +47,8 @@ export function saveSurface(): boolean {
     say('There is no surface of these curves to export yet.', 'error');
     return false;
   }
-  download(`${fileStem()}.obj`, formatObj(shown.span, { name: doc.peek().name }), 'model/obj');
+  const { name } = doc.peek();
+  save(`${fileStem()}.obj`, 'model/obj', ({ formatObj }) => formatObj(shown.span, { name }));
   return true;
 }
 
@@ -53,8 +58,8 @@ export function saveLoops(format: 'curve' | 'json'): boolean {
     say('There are no curves to export yet.', 'error');
     return false;
   }
-  const text = formatLoops({ ...toLoopSet(curves), name }, format);
-  download(`${fileStem()}.${format}`, text, format === 'json' ? 'application/json' : 'text/plain');
+  const type = format === 'json' ? 'application/json' : 'text/plain';
+  save(`${fileStem()}.${format}`, type, ({ formatLoops }) => formatLoops({ ...toLoopSet(curves), name }, format));
   return true;
 }
 
@@ -65,6 +70,18 @@ export function savePicture(picture: Blob): void {
 function fileStem(): string {
   const stem = doc.peek().name.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '');
   return stem === '' ? 'soapfilm' : stem;
+}
+
+/** Downloads what `write` makes, once it can. */
+function save(fileName: string, type: string, write: (formats: Formats) => string): void {
+  fetchFormats().then(
+    (formats) => {
+      download(fileName, write(formats), type);
+    },
+    () => {
+      say(`Could not save “${fileName}”: what writes files could not be loaded.`, 'error');
+    },
+  );
 }
 
 function download(fileName: string, data: string | Blob, type: string): void {
