@@ -51,7 +51,7 @@ describe('in this thread', () => {
     for (const value of ['all', undefined]) {
       const error = errorOf(() => call({ space: value }));
       expect(error.code).toBe('bad-option');
-      expect(error.message).toMatch(/^`space` is not an option here; there are `\w+`/);
+      expect(error.message).toMatch(/^`space` is not an option here; there are \w+/);
     }
   });
 
@@ -85,13 +85,13 @@ describe('in a worker', () => {
       const error = await rejectionOf(call({ [name]: value }));
       expect(error.code).toBe('bad-option');
       expect(error.message).toContain(`\`${name}\` is not an option here`);
-      expect(error.message).toContain('`signal`');
+      expect(error.message).toContain('signal');
     }
     expect((await rejectionOf(call(null))).code).toBe('bad-option');
   });
 
   test('createWorker: an unknown option is bad-option and named', async () => {
     const error = await rejectionOf(createWorker({ threads: 2 } as never));
-    expect(error.message).toContain('`threads` is not an option here; there are `parts`, `wasm`, `size`');
+    expect(error.message).toContain('`threads` is not an option here; there are parts, wasm, size');
   });
 });

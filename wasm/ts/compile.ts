@@ -38,19 +38,23 @@ export function partsOf({ parts = kParts, wasm }: LoadOptions): [Part, WasmSourc
   if (!Array.isArray(parts) || parts.length === 0 || !parts.every(isPart)) {
     throw badOption('parts', kParts, ', or several, in an array');
   }
-  if (typeof wasm === 'object' && ('loops' in wasm || 'polygons' in wasm)) {
-    checkNames(wasm, { loops: true, polygons: true }, 'wasm');
-    return parts.map((part: Part) => [part, wasm[part]]);
-  }
-  return parts.map((part: Part, i) => [part, i === 0 ? wasm : undefined]);
+  const given = Object(wasm) as Partial<Record<Part, WasmSource>>;
+  const isOne = !kParts.some((part) => part in given);
+  if (!isOne) checkNames(given, { loops: true, polygons: true }, 'wasm.');
+  const sources = isOne ? { [parts[0]]: wasm } : given;
+  return parts.map((part: Part) => [part, sources[part]]);
 }
 
-/** What is under way or done for a part, else what `begin` begins; a failure is forgotten. */
+/**
+ * What is under way or done for a part, else what `begin` begins; a failure is forgotten, and with it
+ * the part as compiled, which may be none of soapfilm.
+ */
 export function once<T>(known: Map<Part, Promise<T>>, part: Part, begin: () => Promise<T>): Promise<T> {
   const found =
     known.get(part) ??
     begin().catch((error: unknown) => {
       known.delete(part);
+      compiling.delete(part);
       throw failed(part, error);
     });
   known.set(part, found);
@@ -60,11 +64,6 @@ export function once<T>(known: Map<Part, Promise<T>>, part: Part, begin: () => P
 /** @throws SoapfilmError `load-failed` */
 export function compilePart(part: Part, source: WasmSource | undefined): Promise<WebAssembly.Module> {
   return once(compiling, part, () => compileFrom(part, source));
-}
-
-/** Forgets a part, which is none of soapfilm although it was compiled. */
-export function forgetPart(part: Part): void {
-  compiling.delete(part);
 }
 
 async function compileFrom(part: Part, source: WasmSource | undefined): Promise<WebAssembly.Module> {
@@ -99,6 +98,5 @@ async function compileBytes(bytes: Response | BufferSource): Promise<WebAssembly
 function failed(part: Part, cause: unknown): SoapfilmError {
   if (cause instanceof SoapfilmError) return cause;
   const reason = cause instanceof Error ? cause.message : String(cause);
-  const text = `Loading soapfilm's core (${part}) failed: ${reason}`;
-  return new SoapfilmError('load-failed', text, undefined, { cause });
+  return new SoapfilmError('load-failed', `Loading '${part}' failed: ${reason}`, undefined, { cause });
 }

@@ -1,5 +1,5 @@
 // load: the core's parts, compiled and started in this thread.
-import { compilePart, forgetPart, once, partsOf } from './compile.js';
+import { compilePart, once, partsOf } from './compile.js';
 import { checkNames, kLoadOptions } from './options.js';
 import { startCore } from './runtime.js';
 import type { LoadOptions, Part, WasmSource } from './types.js';
@@ -15,16 +15,9 @@ const loading = new Map<Part, Promise<void>>();
  */
 export async function load(options: LoadOptions = {}): Promise<void> {
   checkNames(options, kLoadOptions);
+  const start = async (part: Part, source?: WasmSource): Promise<void> =>
+    startCore(part, await compilePart(part, source));
   await Promise.all(
     partsOf(options).map(([part, source]) => once(loading, part, () => start(part, source))),
   );
-}
-
-async function start(part: Part, source: WasmSource | undefined): Promise<void> {
-  try {
-    await startCore(part, await compilePart(part, source));
-  } catch (error) {
-    forgetPart(part);
-    throw error;
-  }
 }

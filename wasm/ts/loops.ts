@@ -159,7 +159,7 @@ function settings(
     throw badOption('candidates', kSpaces.slice(0, 4), ', or { triangles }');
   }
   // NaN: the core sets the default from the size of the loops.
-  if (weights) checkNames(weights, kWeights, 'weights');
+  if (weights) checkNames(weights, kWeights, 'weights.');
   const { area = 0, perimeter = 0, dihedral = 0 } = weights ?? { area: NaN, dihedral: 1 };
   if (weights) checkWeights({ area, perimeter, dihedral });
   return new Float64Array([
@@ -210,7 +210,7 @@ function checkStart(start: Uint32Array | undefined): Uint32Array | null {
 function checkList(list: CandidateList | null): CandidateList {
   const bad = (message: string) => new SoapfilmError('bad-candidates', message);
   const { triangles, weights } = list ?? {};
-  if (list) checkNames(list, kCandidateList, 'candidates');
+  if (list) checkNames(list, kCandidateList, 'candidates.');
   if (!(triangles instanceof Uint32Array) || triangles.length % 3 !== 0) {
     throw bad('`candidates.triangles` must be a Uint32Array of three indices for each triangle');
   }

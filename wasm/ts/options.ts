@@ -59,23 +59,17 @@ export interface Limits {
 /**
  * Checks that options are an object without other fields than the named ones: a misspelt option would
  * go unnoticed.
- * @param of the option that they are the fields of, if they are
+ * @param path of the option that they are the fields of, if they are, and a full stop
  * @throws SoapfilmError `bad-option`
  */
-export function checkNames(options: unknown, names: Readonly<Record<string, true>>, of?: string): void {
+export function checkNames(options: unknown, names: Readonly<Record<string, true>>, path = ''): void {
   if (typeof options !== 'object' || options === null) {
-    const what = of === undefined ? 'The options' : `\`${of}\``;
-    throw new SoapfilmError('bad-option', `${what} must be an object`);
+    throw new SoapfilmError('bad-option', `The options must be an object`);
   }
-  const path = of === undefined ? '' : `${of}.`;
-  for (const name of Object.keys(options)) {
-    if (Object.hasOwn(names, name)) continue;
-    const list = Object.keys(names).map((known) => `\`${path}${known}\``);
-    throw new SoapfilmError(
-      'bad-option',
-      `\`${path}${name}\` is not an option here; there are ${list.join(', ')}`,
-    );
-  }
+  const unknown = Object.keys(options).find((name) => !Object.hasOwn(names, name));
+  if (unknown === undefined) return;
+  const list = Object.keys(names).join(', ');
+  throw new SoapfilmError('bad-option', `\`${path}${unknown}\` is not an option here; there are ${list}`);
 }
 
 /**

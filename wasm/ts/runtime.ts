@@ -112,15 +112,14 @@ function imports(compiled: WebAssembly.Module): WebAssembly.Imports {
 
 function open(part: Part, instance: WebAssembly.Instance): Core {
   const { memory } = instance.exports;
+  const lacks = (what: string): SoapfilmError =>
+    new SoapfilmError('load-failed', `The module for '${part}' has no ${what}`);
   const find = (name: string): Export => {
     const found = instance.exports[name];
     if (typeof found === 'function') return found as Export;
-    const text = `The WebAssembly module loaded as '${part}' has no function \`${name}\``;
-    throw new SoapfilmError('load-failed', text);
+    throw lacks(`function \`${name}\``);
   };
-  if (!(memory instanceof WebAssembly.Memory)) {
-    throw new SoapfilmError('load-failed', 'The WebAssembly module has no memory');
-  }
+  if (!(memory instanceof WebAssembly.Memory)) throw lacks('memory');
   find('sf_alloc');
   find('_initialize')();
   return { memory, find };
