@@ -62,7 +62,8 @@ function wordsFor({ code, message, polygon = 0, loop = 0, vertex, otherLoop = 0 
   return text[0].toUpperCase() + text.slice(1);
 }
 
-const milliseconds = (seconds: number): string => `${(1000 * seconds).toPrecision(2)} ms`;
+const milliseconds = (seconds: number): string =>
+  `${Number((1000 * seconds).toPrecision(2)).toLocaleString('en')} ms`;
 
 export function PolygonMode() {
   const canvas = useRef<HTMLCanvasElement>(null);
