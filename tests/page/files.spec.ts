@@ -51,11 +51,12 @@ test('open by button: a .curve file is spanned', async ({ quietPage: page }) => 
   const chooser = page.waitForEvent('filechooser');
   await page.getByRole('button', { name: 'Open a file' }).click();
   await (await chooser).setFiles({ name: 'box.curve', mimeType: 'text/plain', buffer: Buffer.from(kTwoSquares) });
+  // What was there before had two curves as well.
+  await expect(page.getByText('Opened “box.curve”: 2 curves.')).toBeVisible();
   await hasCurves(page, 2);
   const { span, curves } = await spanned(page);
   expect(curves[1][2]).toEqual([2, 2, 1]);
   expectSpans(span, 2);
-  await expect(page.getByText('Opened “box.curve”: 2 curves.')).toBeVisible();
 });
 
 test('open by dropping: JSON and OBJ lines', async ({ quietPage: page }) => {
