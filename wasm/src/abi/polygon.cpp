@@ -149,7 +149,7 @@ sf::Outcome Call::triangulateInSpace(uint32_t polygon, sf::PolygonView view) {
   // The coordinate left out is the core's to see too.
   for (uint32_t r = 0; r + 1 < view.starts.size(); ++r)
     for (uint32_t v = view.starts[r]; v < view.starts[r + 1]; ++v)
-      if (!(std::fabs(view.positions[3 * size_t(v) + plane_.dropped]) <= 1e150)) {
+      if (!(std::fabs(view.positions[3 * size_t(v) + plane_.dropped]) <= sf::kLargestCoordinate)) {
         const sf::Outcome outcome{sf::Status::NotFinite, r, v - view.starts[r]};
         blame(polygon, outcome, flat);
         return outcome;

@@ -10,7 +10,7 @@ enum class Status : int32_t {
   NotFound = 1,        // no triangulation in the candidate space: an answer, not an error
   NoLoops = 2,         // zero loops
   BadStarts = 3,       // `starts` not increasing from 0 to n
-  NotFinite = 4,       // a coordinate is NaN, infinite or larger than 1e150
+  NotFinite = 4,       // a coordinate is NaN or beyond kLargestCoordinate
   TooFewVertices = 5,  // a loop of fewer than 3 vertices
   RepeatedVertex = 6,  // two vertices of the input have the same position
   LoopsIntersect = 7,  // two loop edges cross, touch or overlap
@@ -30,6 +30,8 @@ enum class Status : int32_t {
 };
 
 constexpr uint32_t kNone = 0xFFFFFFFFu;
+/// Of a coordinate: squares have to stay finite.
+constexpr double kLargestCoordinate = 1e150;
 
 /// A status with the place it is about; kNone where a place does not apply.
 struct Outcome {

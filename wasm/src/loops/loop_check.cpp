@@ -166,7 +166,8 @@ Outcome checkLoops(const LoopSet& loops, bool intersections, Work& work) {
   };
   for (uint32_t v = 0; v < loops.vertexCount(); ++v) {
     Vec3 p = loops.position(v);
-    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+    const auto isAccepted = [](double x) { return std::fabs(x) <= kLargestCoordinate; };
+    if (isAccepted(p.x) && isAccepted(p.y) && isAccepted(p.z)) continue;
     outcome.status = Status::NotFinite;
     name(v, outcome.loop, outcome.vertex);
     return outcome;

@@ -7,7 +7,7 @@
 namespace sf {
 
 /// Status Ok if the loops are simple and disjoint, else the first trouble found, in this order:
-///   NotFinite       `loop` and `vertex` of a coordinate that is NaN or infinite
+///   NotFinite       `loop` and `vertex` of a coordinate that is NaN or beyond kLargestCoordinate
 ///   TooFewVertices  `loop` with fewer than 3 vertices
 ///   RepeatedVertex  two vertices of the whole input with the same position, consecutive or not, in
 ///                   one loop or in two; positions that differ by less than 2^-200 of the largest

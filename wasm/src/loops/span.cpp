@@ -33,18 +33,6 @@ constexpr uint32_t kFirstReach = 8, kLastReach = 64;
 constexpr double kMostNear = 4e6;
 /// Times that the `near` space of two loops is enlarged around its optimum, at most.
 constexpr uint32_t kNearRounds = 3;
-/// Squares of coordinates have to stay finite.
-constexpr double kLargestCoordinate = 1e150;
-
-Outcome checkMagnitudes(const LoopSet& loops) {
-  for (uint32_t v = 0; v < loops.vertexCount(); ++v) {
-    const Vec3 p = loops.position(v);
-    const double largest = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-    const uint32_t loop = loops.loopOf(v);
-    if (largest > kLargestCoordinate) return {Status::NotFinite, loop, v - loops.first(loop)};
-  }
-  return {};
-}
 
 Outcome checkOptions(const LoopSet& loops, const SpanOptions& options) {
   const double weights[] = {options.areaWeight, options.perimeterWeight, options.dihedralWeight};
@@ -139,17 +127,17 @@ class Spanning {
     return outcome.status == Status::NotFound && allTriplesFit() ? runAll() : outcome;
   }
 
-  /// Near triples, after a first look at the facets. What these gave is kept if the work ends before.
+  /// Near triples, after a first look at the facets. What these gave is kept unless near ones cost
+  /// less or the caller ended the work.
   Outcome runNearOrKeep(const Outcome& first) {
     Span facets;
     if (first.ok()) facets = result_;
     const Outcome outcome = runNear();
-    const bool isKept = outcome.status == Status::TooLarge || options_.bestSoFar;
-    if (outcome.ok() ? facets.found && facets.cost < result_.cost : facets.found && isKept) {
-      result_ = std::move(facets);
-      return {};
-    }
-    return outcome;
+    const bool isCheaper = outcome.ok() && !(facets.cost < result_.cost);
+    const bool isEnded = outcome.status == Status::Stopped && !options_.bestSoFar;
+    if (!facets.found || isCheaper || isEnded) return outcome;
+    result_ = std::move(facets);
+    return {};
   }
 
   /// Whether the surface found bends so little that others cannot cost much less.
@@ -619,8 +607,7 @@ void Spanning::handBack(const Problem& problem, const CandidateSet& set, const S
 
 Outcome spanLoops(const LoopSet& loops, const SpanOptions& options, Work& work, Span& result) {
   result = {};
-  Outcome outcome = checkMagnitudes(loops);
-  if (outcome.ok()) outcome = checkLoops(loops, true, work);
+  Outcome outcome = checkLoops(loops, true, work);
   if (outcome.ok()) outcome = checkOptions(loops, options);
   if (outcome.ok()) outcome = Spanning(loops, options, work, result).run();
   if (outcome.status == Status::NotFound) return {};

@@ -1,12 +1,11 @@
 #include "polygon/constrained_delaunay.h"
 
-#include <cmath>
-#include <initializer_list>
 #include <numeric>
 
 #include "base/assert.h"
 #include "base/charge.h"
 #include "polygon/in_circle.h"
+#include "polygon/metric.h"
 #include "polygon/triangle_mesh.h"
 #include "polygon/turn.h"
 
@@ -27,28 +26,6 @@ int levelOf(uint32_t t, uint32_t s) {
   return level;
 }
 
-/// Points times the power of two that makes the largest coordinate about 1, if that is far off.
-/// `isExact` becomes false if something is lost in that.
-ArrayView<const Point2> inRange(const std::vector<Point2>& at, std::vector<Point2>& scaled,
-                                bool& isExact) {
-  double largest = 0;
-  for (const Point2 p : at)
-    for (const double x : {std::fabs(p.x), std::fabs(p.y)}) largest = x > largest ? x : largest;
-  int exponent = 0;
-  if (largest > 0) std::frexp(largest, &exponent);
-  isExact = true;
-  if (exponent > -40 && exponent < 40) return at;
-  scaled.resize(at.size());
-  const auto scale = [&](double x) {
-    const double s = std::ldexp(x, -exponent);
-    if (std::fabs(s) >= 0x1p-200 || x == 0) return s;
-    isExact = false;
-    return 0.0;
-  };
-  for (size_t v = 0; v < at.size(); ++v) scaled[v] = {scale(at[v].x), scale(at[v].y)};
-  return scaled;
-}
-
 }  // namespace
 
 bool ConstrainedDelaunay::run(const LinkedPolygon& loops, bool simple, Work& work,
@@ -59,7 +36,7 @@ bool ConstrainedDelaunay::run(const LinkedPolygon& loops, bool simple, Work& wor
   if (!charge.add(perCorner * triangles.size() + sizeof(Point2) * uint64_t(loops.at.size())))
     return false;
   at_ = loops.at.data();
-  metric_ = inRange(loops.at, scaled_, isExact_).data();
+  metric_ = metricPoints(loops.at, scaled_, isExact_).data();
   count_ = uint32_t(triangles.size());
   corners_ = triangles.data(), twins_ = twins.data();
   return giveUpEdges(fixEdges(), simple, work);

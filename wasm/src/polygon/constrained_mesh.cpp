@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "polygon/insertion_order.h"
+#include "polygon/metric.h"
 #include "polygon/turn.h"
 
 namespace sf {
@@ -87,12 +88,8 @@ void ConstrainedMesh::setPosition(uint32_t v, Point2 p) {
     mesh.edgeFrom.resize(at.size(), kNone);
     mesh.at = at, mesh.metric = metric_;
   }
-  const auto scale = [&](double x) {
-    const double s = std::ldexp(x, -exponent_);
-    return std::fabs(s) < 0x1p-200 ? 0.0 : s;
-  };
   at[v] = p;
-  metric_[v] = {scale(p.x), scale(p.y)};
+  metric_[v] = scaledDown(p, exponent_);
 }
 
 void ConstrainedMesh::forgetChanges() {

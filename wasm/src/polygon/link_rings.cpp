@@ -7,8 +7,6 @@
 namespace sf {
 namespace {
 
-constexpr double kLargest = 1e150;
-
 /// Magnitudes of coordinates.
 struct Extent {
   double largest = 0;
@@ -16,7 +14,7 @@ struct Extent {
 
   void add(double x) {
     const double a = std::fabs(x);
-    finite &= a <= kLargest;  // false for NaN
+    finite &= a <= kLargestCoordinate;  // false for NaN
     largest = a > largest ? a : largest;
   }
   /// The power of two by which to scale, so that tiny polygons do not live on underflows.
@@ -46,7 +44,7 @@ Outcome firstNotFinite(const PolygonView& polygon) {
   Outcome bad;
   bad.status = Status::NotFinite;
   const auto isBad = [](ArrayView<const double> xy, size_t i) {
-    return !(std::fabs(xy[2 * i]) <= kLargest && std::fabs(xy[2 * i + 1]) <= kLargest);
+    return !isAccepted({xy[2 * i], xy[2 * i + 1]});
   };
   const uint32_t rings = uint32_t(polygon.starts.size()) - 1;
   for (bad.loop = 0; bad.loop < rings; ++bad.loop)

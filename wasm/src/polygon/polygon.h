@@ -2,10 +2,12 @@
 // Source: Ronfard, Rossignac 1994, sec. 1 (loops, non-manifold vertices), sec. 3 (kinds of vertices,
 // the data structure) and sec. 5 (`below`).
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "base/array_view.h"
+#include "base/status.h"
 
 namespace sf {
 
@@ -13,6 +15,11 @@ struct Point2 {
   double x, y;
 };
 inline bool operator==(Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; }
+
+/// Whether a point may be given: NaN and what is beyond kLargestCoordinate may not.
+inline bool isAccepted(Point2 p) {
+  return std::fabs(p.x) <= kLargestCoordinate && std::fabs(p.y) <= kLargestCoordinate;
+}
 
 /// Whether a is lower than b: by y, at equal heights by x, as if horizontal lines rose a little
 /// towards the right. Points at one place are not below each other.

@@ -6,6 +6,7 @@
 #include "polygon/crossing_point.h"
 #include "polygon/crossing_sweep.h"
 #include "polygon/face_rings.h"
+#include "polygon/metric.h"
 #include "polygon/snap_rounding.h"
 
 namespace sf {
@@ -57,12 +58,8 @@ class Repairer {
 
   uint32_t vertexCount() const { return uint32_t(polygon_.positions.size() / 2); }
   Point2 scaled(uint32_t v) const {
-    const auto scale = [](double x, int exponent) {
-      const double s = std::ldexp(x, -exponent);
-      return std::fabs(s) < 0x1p-200 ? 0.0 : s;
-    };
-    return {scale(polygon_.positions[2 * v], exponent_[0]),
-            scale(polygon_.positions[2 * v + 1], exponent_[1])};
+    return {scaledDown(polygon_.positions[2 * v], exponent_[0]),
+            scaledDown(polygon_.positions[2 * v + 1], exponent_[1])};
   }
   uint32_t previousOf(uint32_t v) const {
     const auto& starts = polygon_.starts;
@@ -304,8 +301,7 @@ Outcome checkInput(const PolygonView& polygon) {
   if (!good) outcome.status = Status::BadStarts;
   for (size_t r = 0; good && r + 1 < starts.size(); ++r)
     for (uint32_t v = starts[r]; v < starts[r + 1]; ++v) {
-      const double x = polygon.positions[2 * v], y = polygon.positions[2 * v + 1];
-      if (std::fabs(x) <= 1e150 && std::fabs(y) <= 1e150) continue;
+      if (isAccepted({polygon.positions[2 * v], polygon.positions[2 * v + 1]})) continue;
       outcome.status = Status::NotFinite;
       outcome.loop = uint32_t(r), outcome.vertex = v - starts[r];
       return outcome;

@@ -7,13 +7,6 @@
 #include "polygon/turn.h"
 
 namespace sf {
-namespace {
-
-constexpr double kLargest = 1e150;
-
-bool isFinite(Point2 p) { return std::fabs(p.x) <= kLargest && std::fabs(p.y) <= kLargest; }
-
-}  // namespace
 
 void PolygonSession::clear() {
   mesh_ = {};
@@ -55,7 +48,7 @@ bool PolygonSession::withinBox(Point2 p) const {
 /// Whether an edit may begin: p is a position, and the memory in use is within the limit.
 Outcome PolygonSession::admit(uint32_t v, Point2 p, Work& work) const {
   if (v != kNone && !isVertex(v)) return Outcome{Status::BadOption};
-  if (!isFinite(p)) return about(Status::NotFinite, v == kNone ? kNone : v + kShift, kNone);
+  if (!isAccepted(p)) return about(Status::NotFinite, v == kNone ? kNone : v + kShift, kNone);
   Charge charge(work);
   if (!charge.add(300 * uint64_t(mesh_.at.size()))) return Outcome{work.status()};
   return {};

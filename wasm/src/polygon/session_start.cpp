@@ -12,10 +12,6 @@
 namespace sf {
 namespace {
 
-constexpr double kLargest = 1e150;
-
-bool isFinite(Point2 p) { return std::fabs(p.x) <= kLargest && std::fabs(p.y) <= kLargest; }
-
 /// Half the side of a box far around points with coordinates up to `largest`.
 double sideOfBox(double largest, int& exponent) {
   exponent = 0;
@@ -59,7 +55,7 @@ Outcome PolygonSession::readRings(const PolygonView& polygon) {
     const uint32_t first = kShift + starts[r];
     uint32_t end = kShift + starts[r + 1];
     for (uint32_t v = first; v < end; ++v)
-      if (!isFinite(mesh_.at[v])) return {Status::NotFinite, r, v - first};
+      if (!isAccepted(mesh_.at[v])) return {Status::NotFinite, r, v - first};
     if (end - first > 1 && mesh_.at[first] == mesh_.at[end - 1]) unused_.push_back(--end);
     if (end - first < 3) return {Status::DegeneratePolygon, r};
     for (uint32_t v = first; v < end; ++v) {
@@ -69,7 +65,7 @@ Outcome PolygonSession::readRings(const PolygonView& polygon) {
     ringSizes_.push_back(end - first);
   }
   for (uint32_t i = 0; i < islands; ++i)
-    if (!isFinite(mesh_.at[kShift + n + i])) return {Status::NotFinite, rings + i, 0};
+    if (!isAccepted(mesh_.at[kShift + n + i])) return {Status::NotFinite, rings + i, 0};
   return {};
 }
 

@@ -7,9 +7,6 @@ constexpr int kSwapCost = StripForest::kIndex;
 constexpr int kStripCost = 2 * StripForest::kIndex + 1;
 constexpr int kForbidden = 1 << 13;
 
-// A turn of a path in a triangle that it enters by half-edge `in` and leaves by `out`: 0 if out
-// follows in, 1 otherwise. Travelled the other way, the turn is the other one.
-uint32_t turnOf(uint32_t in, uint32_t out) { return out == nextInTriangle(in) ? 0 : 1; }
 // The first turn of a strip, in its second triangle, has to be 1 or costs a swap.
 int firstTurnCost(int turn) { return turn == 0 ? kSwapCost : 0; }
 

@@ -23,6 +23,10 @@ namespace sf {
 /// its start, if `starts` is 1, or else its end down there.
 constexpr int kStripApart = 0, kStripEnds = 1, kStripTurns = 2;
 
+/// The turn of a path in a triangle that it enters by half-edge `in` and leaves by `out`: 0 if out
+/// follows in, 1 otherwise. Travelled the other way, the turn is the other one.
+inline uint32_t turnOf(uint32_t in, uint32_t out) { return out == nextInTriangle(in) ? 0 : 1; }
+
 /// In sixteenths of an index beyond one a triangle, and a strip more for one: of equal index counts
 /// the one with fewer strips wins.
 struct StripCosts {

@@ -6,9 +6,6 @@
 namespace sf {
 namespace {
 
-// A turn of a path, as in strip_forest.cpp.
-uint32_t turnOf(uint32_t in, uint32_t out) { return out == nextInTriangle(in) ? 0 : 1; }
-
 class StripFinder {
  public:
   StripFinder(ArrayView<const uint32_t> twins, Work& work, StripLinks& links)

@@ -1,10 +1,9 @@
 #include "polygon/trapezoidation.h"
 
-#include <cmath>
-
 #include "base/charge.h"
 #include "base/predicates.h"
 #include "polygon/insertion_order.h"
+#include "polygon/metric.h"
 
 namespace sf {
 namespace {
@@ -106,27 +105,6 @@ bool findUniMonotonePolygons(const LinkedPolygon& linked, const Visibility& seen
   return work.tick(2 * size);
 }
 
-/// Whether the points are within the range where angles can be computed; if not, `scaled` is what
-/// they are after scaling, the small ones then zero.
-bool scaleMetric(ArrayView<const Point2> at, std::vector<Point2>& scaled) {
-  double largest = 0, least = 1;
-  for (const Point2 p : at)
-    for (const double m : {std::fabs(p.x), std::fabs(p.y)}) {
-      if (m > largest) largest = m;
-      if (m < least && m > 0) least = m;
-    }
-  if (largest <= 0x1p60 && least >= 0x1p-150) return true;
-  int exponent;
-  std::frexp(largest, &exponent);
-  const auto scale = [&](double x) {
-    const double s = std::ldexp(x, -exponent);
-    return std::fabs(s) < 0x1p-200 ? 0.0 : s;
-  };
-  scaled.clear();
-  for (const Point2 p : at) scaled.push_back({scale(p.x), scale(p.y)});
-  return false;
-}
-
 /// Where point p lies: along the horizontal line by which it sees the edge e to its left, whose
 /// half-edge runs down. No vertex is level with p, since `below` tilts horizontals.
 TriangleMesh::Place TrapezoidTriangulator::followSight(uint32_t e, uint32_t p) const {
@@ -196,8 +174,9 @@ bool TrapezoidTriangulator::improve(const LinkedPolygon& linked, const Visibilit
   const uint32_t nodes = uint32_t(linked.at.size());
   Charge charge(work);
   if (!charge.add(8 * uint64_t(mesh_.corners.size()))) return false;
-  mesh_.at = mesh_.metric = linked.at;
-  if (!scaleMetric(linked.at, scaled_)) mesh_.metric = scaled_;
+  mesh_.at = linked.at;
+  bool isExact;
+  mesh_.metric = metricPoints(linked.at, scaled_, isExact);
   mesh_.unused.clear();
   mesh_.edgeFrom.clear();
   if (!findTwins(mesh_.corners, nodes, work, mesh_.twins)) return false;

@@ -12,8 +12,8 @@ namespace sf {
 /// integers of some thousand bits.
 double turnExactly(Point2 a, Point2 b, Point2 c);
 
-/// Positive if a, b, c turn left, negative if right, 0 if collinear. Exact for all numbers up to
-/// 1e150.
+/// Positive if a, b, c turn left, negative if right, 0 if collinear. Exact for all points that
+/// are accepted.
 inline double turn(Point2 a, Point2 b, Point2 c) {
   const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
   const double det = left - right;
