@@ -17,8 +17,11 @@ function spanIn(candidates, loops, weights) {
 
 await load({ parts: ['loops'] });
 const [names, ...files] = process.argv.slice(2);
-// Once before, so that the engine has compiled what is measured.
-for (const space of kSpaces) spanIn(space, parseLoops(readFileSync(files[0])));
+// A while before, so that the engine has compiled what is measured.
+const kWarmUpSeconds = 1;
+for (const space of kSpaces)
+  for (let spent = 0, i = 0; spent < kWarmUpSeconds && i < 10 * files.length; ++i)
+    spent += spanIn(space, parseLoops(readFileSync(files[i % files.length]))).seconds;
 const rows = files.flatMap((file) => {
   const loops = parseLoops(readFileSync(file));
   const [k, n] = [loops.starts.length - 1, loops.starts.at(-1)];

@@ -128,8 +128,8 @@ async function measure(words, wantsAll) {
   }
   if (wantsAll || (words.length > 0 && wanted('near noisy'))) {
     found.near = {
-      single: await measureOptimality(noisyLoops('single', 60), 'noisy_single', 'default,dihedral'),
-      pairs: await measureOptimality(noisyLoops('pairs', 60), 'noisy_pair', 'default,dihedral,area'),
+      single: await measureOptimality(noisyLoops('single', 120), 'noisy_single', 'default,dihedral'),
+      pairs: await measureOptimality(noisyLoops('pairs', 120), 'noisy_pair', 'default,dihedral,area'),
     };
     print('', nearLines(found.near));
   }

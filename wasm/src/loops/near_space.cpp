@@ -14,11 +14,11 @@ using Corners = std::vector<PolygonChart::Corner>;
 
 /// Triangles taken for each vertex: of one loop, and of two for each bridge.
 constexpr size_t kPerVertex = 6;
-constexpr size_t kPerVertexAndBridge = 6;
+constexpr size_t kPerVertexAndBridge = 4;
 /// By how much of the least cost the surfaces of those triangles may be dearer.
 constexpr double kDearer = 0.05, kDearerWithBridge = 0.4;
 /// Of the bridges tried, those whose triangles are taken: by cost, of all and of the valid ones.
-constexpr size_t kTaken = 6;
+constexpr size_t kTaken = 8;
 /// Vertices for each bridge that is tried: of a surface, and of short ones in two directions.
 constexpr uint32_t kVerticesPerBridge = 4, kVerticesPerShortBridge = 3;
 constexpr uint32_t kLeastBridges = 10, kMostBridges = 12;

@@ -23,7 +23,7 @@ namespace sf {
 bool hasNearOptimalTriples(const LoopSet& loops, const Work& work);
 
 /// Appends triples of surfaces near the best one found: at most six for each vertex of one loop,
-/// and as many for each vertex and bridge of two. In any order, perhaps collinear or repeated, as facetTriples
+/// and four for each vertex and bridge of two. In any order, perhaps collinear or repeated, as facetTriples
 /// takes them. False when the work ended.
 ///   weights  without own weights
 ///   surface  [3m] of two loops, wound alike: the bridges tried are some of its edges. Empty: none is

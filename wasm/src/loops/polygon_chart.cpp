@@ -26,15 +26,27 @@ constexpr double kSplitPerKept = 1.3;
 constexpr uint32_t kTryAll = 8;
 /// Of longer ones those whose bound is above the least one by at most so much: of what was the mean
 /// excess of the cost over that bound, and of what the excess then turns out to be.
-constexpr float kUsualGap = 1.0f, kOwnGap = 0.6f;
+constexpr float kUsualGap = 0.9f, kOwnGap = 0.6f;
 /// The second of these gaps is wanted when it is so much wider than the first.
-constexpr float kWider = 1.25f;
+constexpr float kWider = 1.5f;
 /// With more apexes than this within the usual gap it is narrowed, at most so often.
 constexpr uint32_t kManyApexes = 20;
 constexpr int kMostNarrowings = 4;
 constexpr float kNarrower = 0.6f;
 
-double keptPerOctave(double n) { return kKeptPerOctave * std::min(1.0, kManyCorners / n); }
+/// How many segments of a length are kept, at most, in a polygon of n corners.
+uint32_t mostKept(uint32_t n, uint32_t length) {
+  const uint32_t all = n - length;
+  if (n <= kAllSegments || length <= kShortSegment) return all;
+  const double perOctave = kKeptPerOctave * std::min(1.0, kManyCorners / n);
+  return std::min(all, uint32_t(std::ceil(perOctave * n / length)) + 4);
+}
+
+uint64_t mostKept(uint32_t n) {
+  uint64_t sum = 0;
+  for (uint32_t length = 1; length < n; ++length) sum += mostKept(n, length);
+  return sum;
+}
 
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = int32_t __attribute__((vector_size(16)));
@@ -87,11 +99,8 @@ PolygonChart::PolygonChart(const LoopSet& loops, const TriangleWeights& weights,
   for (int i = 0; i < 5; ++i) angle_[i] = float(weights.dihedral) * kAngle[i];
 }
 
-double PolygonChart::bytesFor(double n) {
-  const double kept =
-      n <= kAllSegments ? n * n / 2
-                        : n * (kShortSegment + keptPerOctave(n) * std::log(n / kShortSegment) + 8);
-  return 8 * n * n + kept * (2 * sizeof(Splits) + 2 * sizeof(Segment)) + 64 * n;
+double PolygonChart::bytesFor(uint32_t n) {
+  return 8 * double(n) * n + double(mostKept(n) * (sizeof(Splits) + sizeof(Segment))) + 64 * n;
 }
 
 inline PolygonChart::Splits PolygonChart::noSplits() {
@@ -331,9 +340,7 @@ void PolygonChart::keepLeast(std::vector<Ranked>& ranked, size_t count) {
 /// anyway: else those where it is smooth would drive out all others.
 bool PolygonChart::computeLength(uint32_t length) {
   const uint32_t count = n_ - length;
-  size_t most = count;
-  if (n_ > kAllSegments && length > kShortSegment)
-    most = std::min(most, size_t(std::ceil(keptPerOctave(n_) * n_ / length)) + 4);
+  const size_t most = mostKept(n_, length);
   const bool keepAll = most == count;
   if (!keepAll && price_.empty()) findPrices();
   ranked_.clear();
@@ -388,8 +395,8 @@ bool PolygonChart::compute(std::vector<Corner> corners) {
     const Vec3 p = loops_.position(c.vertex) - origin;
     positions_.push_back({float(p.x), float(p.y), float(p.z)});
   }
-  splits_.clear();
-  segments_.clear();
+  splits_.clear(), splits_.reserve(size_t(mostKept(n_)));
+  segments_.clear(), segments_.reserve(size_t(mostKept(n_)));
   gap_ = 0;
   price_.clear();
   cost_.assign(size_t(n_) * n_, kNever);

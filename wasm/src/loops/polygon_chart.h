@@ -48,7 +48,7 @@ class PolygonChart {
   void nearBest(double excess, size_t most, std::vector<Triangle>& triangles);
 
   /// Bytes that a polygon of n corners takes.
-  static double bytesFor(double n);
+  static double bytesFor(uint32_t n);
 
  private:
   static constexpr uint32_t kSplits = 4, kRoom = 32;

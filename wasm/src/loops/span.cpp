@@ -341,8 +341,8 @@ class Spanning {
     return solve(problem, std::move(triples), {});
   }
 
-  /// Candidates are the facets and the triples of near-optimal surfaces; for two loops then also
-  /// those around the optimum among them, until it gets no better.
+  /// Candidates are the facets and the triples of near-optimal surfaces; for two loops then the
+  /// optimum among them and those around it, until it gets no better.
   Outcome runNearOptimal(std::vector<uint32_t> list) {
     const Problem problem = unchangedProblem(unit_, options_);
     TriangleWeights weights = triangleWeights(problem, {});
@@ -371,6 +371,7 @@ class Spanning {
       if (!outcome.ok()) return outcome;
       const bool isBetter = round == 0 || result_.cost < before - 1e-9 * std::fabs(before);
       if (loops_.loopCount() == 1 || !isBetter || round == kNearRounds) return {};
+      list = result_.triangles;
       beginSpace(Space::Near);
     }
   }
