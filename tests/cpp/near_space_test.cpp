@@ -179,18 +179,33 @@ TEST_CASE(
   CHECK(cost[0] == cost[1]);
 }
 
-TEST_CASE("near space: two loops without angles take all triples while that is quick") {
+TEST_CASE("near space: two loops without angles, apart or close, come near the optimum") {
   Random random(68);
   MESSAGE("seed 68");
-  Problem problem;
-  problem.curves = randomLoops({12, 12}, 0.5, random);
-  problem.options.areaWeight = 1;
-  problem.options.dihedralWeight = 0;
-  problem.options.space = Space::Near;
-  const Answer near = solve(problem);
-  REQUIRE(near.outcome.ok());
-  CHECK(near.span.space == Space::All);
-  CHECK(near.span.optimal);
+  int good = 0;
+  const int count = 30;
+  for (int i = 0; i < count; ++i) {
+    CAPTURE(i);
+    Problem problem;
+    problem.curves = randomLoops({8 + random.below(5), 8 + random.below(5)}, 0.3, random);
+    const Vec3 apart = (0.1 * (i % 10)) * random.inCube(1);
+    for (Vec3& p : problem.curves[1]) p = p + apart;
+    problem.options.areaWeight = 1;
+    problem.options.perimeterWeight = i % 3 == 0 ? 0.1 : 0;
+    problem.options.dihedralWeight = 0;
+    problem.options.space = Space::All;
+    const Answer all = solve(problem);
+    problem.options.space = Space::Near;
+    const Answer near = solve(problem);
+    REQUIRE(all.outcome.ok());
+    REQUIRE(near.outcome.ok());
+    REQUIRE(near.span.found);
+    CHECK(near.span.space == Space::Near);
+    CHECK(spanFault(loopSet(problem.curves), problem.options, near.span) == "");
+    CHECK(near.span.cost >= all.span.cost * (1 - 1e-9));
+    good += near.span.cost <= 1.02 * all.span.cost;
+  }
+  CHECK(good >= count * 95 / 100);
 }
 
 TEST_CASE("auto: facets where the loop is smooth, near triples where it is rough") {

@@ -54,16 +54,15 @@ export interface SpanOptions {
    * - `'delaunay'`: facets of the Delaunay tetrahedralization, after edge protection, which may insert
    *   vertices on loop edges. For loops of any size; on noisy ones the optimum costs up to 1.5 times
    *   that over all triples, or there is none.
-   * - `'near'`: the facets for the loops as they are, and triples of near-optimal surfaces. Where
-   *   angles count, the optimum among them is usually within 1.02 times that over all triples, in a
-   *   twentieth of the time for a few hundred vertices. For one loop up to 4000 vertices or two up to
-   *   120 together; beyond, triples of neighbouring vertices. Without angles in the cost one loop
-   *   up to 1000 vertices and two small ones take `'all'`, which is as quick; two larger ones may
-   *   cost half as much again as over all triples, or more.
-   *   `optimal` and `lowerBound` speak of the last such set.
+   * - `'near'`: the facets for the loops as they are, and triples of near-optimal surfaces. The
+   *   optimum among them is usually within 1.02 times that over all triples, in a twentieth of the
+   *   time for a few hundred vertices. For one loop up to 4000 vertices or two up to 120 together;
+   *   beyond, triples of neighbouring vertices. Without angles in the cost one loop up to 1000
+   *   vertices takes `'all'`, which is as quick. `optimal` and `lowerBound` speak of the last such
+   *   set.
    * - `'auto'` (default): all triples while that is predicted to be quick; else the Delaunay facets,
    *   and if their surface is rough (more than 0.05 rad an edge on average) near triples, for one
-   *   loop up to 2000 vertices or, where angles count, two up to 120. The next wider space where one
+   *   loop up to 2000 vertices or two up to 120. The next wider space where one
    *   holds no triangulation.
    */
   readonly candidates?: CandidateSpace | CandidateList;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/charge.h"
 #include "base/sort.h"
+#include "loops/neck_search.h"
 #include "loops/polygon_chart.h"
 #include "loops/weight.h"
 
@@ -19,6 +21,9 @@ constexpr size_t kPerVertexAndBridge = 4;
 constexpr double kDearer = 0.05, kDearerWithBridge = 0.4;
 /// Of the bridges tried, those whose triangles are taken: by cost, of all and of the valid ones.
 constexpr size_t kTaken = 8;
+/// The same for a bridge of two loops without angles.
+constexpr size_t kPlainPerVertex = 2;
+constexpr double kPlainDearer = 0.1;
 /// Vertices for each bridge that is tried: of a surface, and of short ones in two directions.
 constexpr uint32_t kVerticesPerBridge = 4, kVerticesPerShortBridge = 3;
 constexpr uint32_t kLeastBridges = 10, kMostBridges = 12;
@@ -55,6 +60,29 @@ struct Bridge {
   bool forward;  // of the second loop
 };
 
+uint32_t nearestOf(const LoopSet& loops, uint32_t vertex, uint32_t loop) {
+  uint32_t best = loops.first(loop);
+  for (uint32_t v = best; v < loops.first(loop) + loops.size(loop); ++v)
+    if (distance(loops.position(v), loops.position(vertex)) <
+        distance(loops.position(best), loops.position(vertex)))
+      best = v;
+  return best;
+}
+
+/// From some vertices of the first loop to the nearest of the second, in both directions.
+std::vector<Bridge> shortBridges(const LoopSet& loops) {
+  const uint32_t count =
+      std::clamp(loops.vertexCount() / kVerticesPerShortBridge, kLeastBridges, kMostBridges);
+  std::vector<Bridge> bridges;
+  for (uint32_t q = 0; q < count; ++q) {
+    const uint32_t a = loops.first(0) + uint32_t(uint64_t(q) * loops.size(0) / count);
+    const uint32_t b = nearestOf(loops, a, 1);
+    bridges.push_back({a, b, false});
+    bridges.push_back({a, b, true});
+  }
+  return bridges;
+}
+
 Corners joined(const LoopSet& loops, const TriangleWeights& weights, const Bridge& bridge) {
   Corners corners;
   walk(loops, weights, bridge.a, true, true, corners);
@@ -86,12 +114,9 @@ class BridgeSearch {
 
  private:
   bool attempt(const Bridge& bridge);
-  bool attemptShort();
-  bool attemptThose(ArrayView<const uint32_t> surface);
   bool isValid(const Corners& corners, const std::vector<PolygonChart::Triangle>& surface);
   double angleAtBridge(const Corners& corners,
                        const std::vector<PolygonChart::Triangle>& surface) const;
-  uint32_t nearestOf(uint32_t vertex, uint32_t loop) const;
 
   const LoopSet& loops_;
   const TriangleWeights& weights_;
@@ -99,15 +124,6 @@ class BridgeSearch {
   std::vector<Trial> trials_;
   std::vector<std::pair<uint32_t, uint32_t>> edges_;  // scratch
 };
-
-uint32_t BridgeSearch::nearestOf(uint32_t vertex, uint32_t loop) const {
-  uint32_t best = loops_.first(loop);
-  for (uint32_t v = best; v < loops_.first(loop) + loops_.size(loop); ++v)
-    if (distance(loops_.position(v), loops_.position(vertex)) <
-        distance(loops_.position(best), loops_.position(vertex)))
-      best = v;
-  return best;
-}
 
 /// Whether each loop edge has one of the triangles, and every other edge of theirs two.
 bool BridgeSearch::isValid(const Corners& corners,
@@ -159,43 +175,33 @@ bool BridgeSearch::attempt(const Bridge& bridge) {
   return true;
 }
 
-/// From some vertices of the first loop to the nearest of the second.
-bool BridgeSearch::attemptShort() {
-  const uint32_t count =
-      std::clamp(loops_.vertexCount() / kVerticesPerShortBridge, kLeastBridges, kMostBridges);
-  for (uint32_t q = 0; q < count; ++q) {
-    const uint32_t a = loops_.first(0) + uint32_t(uint64_t(q) * loops_.size(0) / count);
-    const uint32_t b = nearestOf(a, 1);
-    for (const bool forward : {false, true})
-      if (!attempt({a, b, forward})) return false;
-  }
-  return true;
-}
-
-bool BridgeSearch::attemptThose(ArrayView<const uint32_t> surface) {
+/// Bridges among the edges of a surface.
+std::vector<Bridge> bridgesOf(const LoopSet& loops, ArrayView<const uint32_t> surface) {
   // Whether the triangles pass the loops' edges from each vertex to the next.
   bool isForward[2] = {};
-  std::vector<std::pair<uint32_t, uint32_t>> bridges;
+  std::vector<std::pair<uint32_t, uint32_t>> edges;
   for (size_t i = 0; i < surface.size(); ++i) {
     const uint32_t u = surface[i], v = surface[i % 3 == 2 ? i - 2 : i + 1];
-    if (loops_.next(u) == v && loops_.next(v) != u) isForward[loops_.loopOf(u)] = true;
-    if (loops_.loopOf(u) < loops_.loopOf(v)) bridges.push_back({u, v});
+    if (loops.next(u) == v && loops.next(v) != u) isForward[loops.loopOf(u)] = true;
+    if (loops.loopOf(u) < loops.loopOf(v)) edges.push_back({u, v});
   }
   // In the order in which they follow each other around.
-  sf::sort(bridges.begin(), bridges.end());
-  bridges.erase(std::unique(bridges.begin(), bridges.end()), bridges.end());
+  sf::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   const size_t count = std::min<size_t>(
-      bridges.size(),
-      std::clamp(loops_.vertexCount() / kVerticesPerBridge, kLeastBridges, kMostBridges));
+      edges.size(),
+      std::clamp(loops.vertexCount() / kVerticesPerBridge, kLeastBridges, kMostBridges));
+  std::vector<Bridge> bridges;
   for (size_t q = 0; q < count; ++q) {
-    const auto& [a, b] = bridges[q * bridges.size() / count];
-    if (!attempt({a, b, isForward[0] == isForward[1]})) return false;
+    const auto& [a, b] = edges[q * edges.size() / count];
+    bridges.push_back({a, b, isForward[0] == isForward[1]});
   }
-  return true;
+  return bridges;
 }
 
 bool BridgeSearch::run(ArrayView<const uint32_t> surface, std::vector<uint32_t>& triples) {
-  if (!(surface.empty() ? attemptShort() : attemptThose(surface))) return false;
+  for (const Bridge& bridge : surface.empty() ? shortBridges(loops_) : bridgesOf(loops_, surface))
+    if (!attempt(bridge)) return false;
   const auto use = [&] {
     for (size_t q = 0; q < std::min(kTaken, trials_.size()); ++q)
       triples.insert(triples.end(), trials_[q].triples.begin(), trials_[q].triples.end());
@@ -208,18 +214,49 @@ bool BridgeSearch::run(ArrayView<const uint32_t> surface, std::vector<uint32_t>&
   return true;
 }
 
+/// Two loops without angles: two discs and a neck between them, or where the loops lie near each
+/// other, a band that a bridge cuts to a polygon.
+bool plainTriples(const LoopSet& loops, const TriangleWeights& weights, Work& work,
+                  std::vector<uint32_t>& triples) {
+  const uint32_t n = loops.vertexCount();
+  Charge memory(work);
+  if (!memory.add(uint64_t(bytesForNecks(n)))) return false;
+  const TripleWeights table(loops, weights);
+  if (!work.tick(n * n * n) || !neckTriples(loops, table, work, triples)) return false;
+  std::vector<std::pair<double, std::vector<uint32_t>>> trials;
+  PlainPolygon polygon(loops, table);
+  for (const Bridge& bridge : shortBridges(loops)) {
+    std::vector<uint32_t> vertices;
+    for (const PolygonChart::Corner& corner : joined(loops, weights, bridge))
+      vertices.push_back(corner.vertex);
+    if (!work.tick(n * n * n)) return false;
+    polygon.compute(std::move(vertices));
+    if (polygon.best() == kInfinity) continue;
+    trials.push_back({polygon.best(), {}});
+    polygon.nearBest((1 + kPlainDearer) * polygon.best(), kPlainPerVertex * polygon.size(),
+                     trials.back().second);
+  }
+  sf::sort(trials.begin(), trials.end());
+  for (size_t q = 0; q < std::min(kTaken, trials.size()); ++q)
+    triples.insert(triples.end(), trials[q].second.begin(), trials[q].second.end());
+  return true;
+}
+
 }  // namespace
 
 bool hasNearOptimalTriples(const LoopSet& loops, const Work& work) {
   const uint32_t n = loops.vertexCount() + 2;
   if (loops.loopCount() > 2 || n > (loops.loopCount() == 1 ? kMostVertices : kMostOfTwoLoops))
     return false;
-  return work.fits(PolygonChart::bytesFor(n));
+  return work.fits(loops.loopCount() == 1 ? PolygonChart::bytesFor(n)
+                                          : std::max(PolygonChart::bytesFor(n), bytesForNecks(n)));
 }
 
 bool nearOptimalTriples(const LoopSet& loops, const TriangleWeights& weights,
                         ArrayView<const uint32_t> surface, Work& work,
                         std::vector<uint32_t>& triples) {
+  if (loops.loopCount() == 2 && weights.dihedral == 0)
+    return plainTriples(loops, weights, work, triples);
   if (loops.loopCount() == 2) return BridgeSearch(loops, weights, work).run(surface, triples);
   Corners corners;
   walk(loops, weights, 0, true, false, corners);

@@ -99,7 +99,7 @@ class Spanning {
       case Space::Delaunay:
         return runDelaunay();
       case Space::Near:
-        return isSimplerOverAll() && allTriplesFit() ? runAll() : runNear();
+        return isPlainPolygon() && allTriplesFit() ? runAll() : runNear();
       case Space::Given:
         return runGiven();
       case Space::Auto:
@@ -113,14 +113,12 @@ class Spanning {
   /// surface, or only a rough one and near ones are not too many.
   Outcome runAuto() {
     const uint32_t k = loops_.loopCount();
-    // Without angles near triples of two loops are not good enough to be taken for all.
-    const bool isNearGood = k == 1 || looksAtAngles();
-    const double patience = k == 2 && isNearGood ? kPatienceForTwo : kPatience;
+    const double patience = k == 2 ? kPatienceForTwo : kPatience;
     const bool isQuick = predictedTimeOfAllTriples(loops_) <= patience || isPlainPolygon();
     if (isQuick && allTriplesFit()) return runAll();
     partShare_ = 0.5;
-    const bool isNearQuick = isNearGood && hasNearOptimalTriples(unit_, work_) &&
-                             (k > 1 || loops_.vertexCount() <= kAutoNear);
+    const bool isNearQuick =
+        hasNearOptimalTriples(unit_, work_) && (k > 1 || loops_.vertexCount() <= kAutoNear);
     Outcome outcome = runDelaunay();
     if (outcome.status == Status::NotFound || (outcome.ok() && isNearQuick && !isSmooth()))
       outcome = runNearOrKeep(outcome);
@@ -191,14 +189,8 @@ class Spanning {
     return dihedralWeight_ > 0 || options_.objective == Objective::WorstDihedral;
   }
 
-  /// Whether `near` is all triples: where no angles count these are quick for one loop, and the only
-  /// ones that are good for two (near-optimal polygons pinch at a neck, where the surface must not).
-  bool isSimplerOverAll() const {
-    return isPlainPolygon() || (loops_.loopCount() == 2 && !looksAtAngles() &&
-                                predictedTimeOfAllTriples(loops_) <= kPatience);
-  }
-
-  /// One loop without angles in its cost takes all triples in less time than near ones.
+  /// One loop without angles in its cost takes all triples in less time than near ones, so that these
+  /// are all.
   bool isPlainPolygon() const {
     return loops_.loopCount() == 1 && !looksAtAngles() && loops_.vertexCount() <= kPlainPolygon;
   }
@@ -341,19 +333,14 @@ class Spanning {
     return solve(problem, std::move(triples), {});
   }
 
-  /// Candidates are the facets and the triples of near-optimal surfaces; for two loops then the
-  /// optimum among them and those around it, until it gets no better.
+  /// Candidates are the facets and the triples of near-optimal surfaces; for two loops with angles
+  /// then the optimum among them and those around it, until it gets no better.
   Outcome runNearOptimal(std::vector<uint32_t> list) {
     const Problem problem = unchangedProblem(unit_, options_);
     TriangleWeights weights = triangleWeights(problem, {});
     // A small sum of angles goes with small ones.
     if (options_.objective == Objective::WorstDihedral) weights.dihedral = 1;
-    if (loops_.loopCount() == 2 && !looksAtAngles()) {
-      // Polygons of least area pinch along the bridge: what they give is no surface over two loops.
-      std::vector<uint32_t> around;
-      if (!nearTriples(unit_, list, kFirstReach, work_, around)) return {work_.status()};
-      list = std::move(around);
-    }
+    const bool isDone = loops_.loopCount() == 1 || weights.dihedral == 0;
     for (uint32_t round = 0;; ++round) {
       std::vector<uint32_t> triples;
       Span last;
@@ -370,7 +357,7 @@ class Spanning {
       }
       if (!outcome.ok()) return outcome;
       const bool isBetter = round == 0 || result_.cost < before - 1e-9 * std::fabs(before);
-      if (loops_.loopCount() == 1 || !isBetter || round == kNearRounds) return {};
+      if (isDone || !isBetter || round == kNearRounds) return {};
       list = result_.triangles;
       beginSpace(Space::Near);
     }
