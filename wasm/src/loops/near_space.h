@@ -6,7 +6,8 @@
 // long triangles in the right directions. So the triples are taken from a truncated solution
 // over all of them (polygon_chart.h): one loop is a polygon already, two are joined to one by a
 // bridge, walked along one loop, across, along the other in either direction and back, for many
-// bridges in turn. The Delaunay facets are candidates as well, so that near never costs more than
+// bridges in turn; without angles in the cost, necks between two discs are tried too
+// (neck_search.h). The Delaunay facets are candidates as well, so that near never costs more than
 // the facets of the loops' own vertices do.
 #pragma once
 #include <cstdint>
@@ -27,7 +28,7 @@ bool hasNearOptimalTriples(const LoopSet& loops, const Work& work);
 /// takes them. False when the work ended.
 ///   weights  without own weights
 ///   surface  [3m] of two loops, wound alike: the bridges tried are some of its edges. Empty: none is
-///            known, the bridges are short. Not read for one loop.
+///            known, the bridges are short. Not read for one loop or without angles.
 /// O(n^2) segments of a polygon, each about a third of a microsecond; up to 24 such polygons for two
 /// loops.
 bool nearOptimalTriples(const LoopSet& loops, const TriangleWeights& weights,
