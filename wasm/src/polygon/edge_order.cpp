@@ -5,8 +5,6 @@
 namespace sf {
 namespace {
 
-// Up to so many edges, the list is searched from its left end.
-constexpr size_t kFew = 32;
 // So many steps along the list cost about as much as a search in the tree.
 constexpr int kSteps = 12;
 
@@ -27,7 +25,7 @@ void EdgeOrder::reset(size_t capacity, double least, double greatest) {
   if (edges_.size() < capacity) edges_.resize(capacity);
   root_ = leftmost_ = kNone;
   size_ = 0;
-  hasTree_ = capacity > kFew;
+  hasTree_ = takesHints(capacity);
   if (!hasTree_) return;
   least_ = least;
   columnsPerX_ = double(capacity) / (greatest - least);

@@ -40,8 +40,8 @@ class EdgeOrder {
   /// The edges that p lies between, kNone at the ends; true, with `left` an edge through p, if there
   /// is one. O(log n) expected, O(1) if `hint` is an edge close to p; it may be kNone.
   bool find(Point2 p, uint32_t hint, uint32_t& left, uint32_t& right) const;
-  /// Whether there are so many edges that a hint is worth its search.
-  bool takesHints() const { return hasTree_; }
+  /// Whether for that many edges a hint is worth its search.
+  static bool takesHints(size_t capacity) { return capacity > kFew; }
   /// Remembers that edge e was seen near x.
   void remember(uint32_t e, double x) {
     if (hasTree_) near_[columnOf(x)] = e;
@@ -55,6 +55,9 @@ class EdgeOrder {
   void remove(uint32_t e);
 
  private:
+  // Up to so many edges, the list is searched from its left end.
+  static constexpr size_t kFew = 32;
+
   void index(uint32_t e);
   void unindex(uint32_t e);
   void attach(uint32_t e, uint32_t parent, int side);

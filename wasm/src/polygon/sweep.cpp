@@ -107,14 +107,17 @@ bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility&
   const size_t m = linked.at.size();
   inputNodes = m;
   events.resize(m);
-  size_t minima = 0, count = 0;
+  // Edges come into the order in pairs, at local minima alone.
+  const uint32_t chainCount = numberChains();
+  const bool hints = EdgeOrder::takesHints(chainCount);
+  size_t count = 0;
   Point2 least{HUGE_VAL, HUGE_VAL}, greatest{-HUGE_VAL, -HUGE_VAL};
   for (uint32_t v = 0; v < m; ++v) {
     const VertexKind kind = linked.kind[v];
     const Point2 at = linked.at[v];
-    events[count] = {at, v, kind};
+    const bool isMinimum = kind == VertexKind::Bottom;
+    events[count] = {at, v, chains[v], isMinimum && hints ? edgeNear(v) : kNone, kind};
     count += kind != VertexKind::Unused;
-    minima += kind == VertexKind::Bottom;
     least.x = std::min(least.x, at.x), greatest.x = std::max(greatest.x, at.x);
     least.y = std::min(least.y, at.y), greatest.y = std::max(greatest.y, at.y);
   }
@@ -122,12 +125,7 @@ bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility&
   events.resize(count);
   sortEvents(least.y, greatest.y);
   if (!work.tick(uint32_t(std::min<size_t>(m, 1u << 24)) * 60)) return false;
-  // Edges come into the order in pairs, at local minima alone.
-  edges.reset(2 * minima, least.x, greatest.x);
-  ending.resize(2 * m);
-  records.clear();
-  for (uint32_t v = 0, e = 0; v < m; ++v)
-    if (linked.kind[v] == VertexKind::Bottom) ending[2 * size_t(v)] = e, e += 2;
+  edges.reset(chainCount, least.x, greatest.x);
   seen->order.clear();
   seen->left.resize(m);
   if (!sagsOnly) {
@@ -136,6 +134,40 @@ bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility&
     seen->right.assign(m, kNone);
   }
   return true;
+}
+
+/// Numbers the records of chains; returns how many there are.
+uint32_t State::numberChains() {
+  const uint32_t m = uint32_t(loops->at.size());
+  const uint32_t *next = loops->next.data(), *prev = loops->prev.data();
+  const VertexKind* kind = loops->kind.data();
+  chains.resize(m);
+  uint32_t e = 0;
+  for (uint32_t v = 0; v < m; ++v) {
+    if (kind[v] != VertexKind::Bottom) continue;
+    uint32_t u = prev[v];
+    for (; kind[u] == VertexKind::LeftBank; u = prev[u]) chains[u] = e;
+    ++e;
+    u = v;
+    do chains[u] = e, u = next[u];
+    while (kind[u] == VertexKind::RightBank);
+    chains[u] = e++;
+  }
+  return e;
+}
+
+/// The record of an edge at the height of a local minimum not far from it along its loop, if there is
+/// one.
+uint32_t State::edgeNear(uint32_t v) const {
+  const Point2 at = loops->at[v];
+  uint32_t after = v, before = v;
+  for (int steps = 0; steps < kRingSteps; ++steps) {
+    after = loops->next[after], before = loops->prev[before];
+    if (below(loops->at[after], at))
+      return chains[after] ^ uint32_t(loops->kind[after] == VertexKind::Bottom);
+    if (below(loops->at[before], at)) return chains[before];
+  }
+  return kNone;
 }
 
 /// Sorts the events by height: in buckets of even height, which suits most polygons, then each.
@@ -176,22 +208,31 @@ void State::sortEvents(double least, double greatest) {
 void State::touchAhead(size_t i, size_t end) {
   const uint32_t* next = loops->next.data();
   const uint32_t* prev = loops->prev.data();
-  // Neighbours of few edges are at hand anyway.
-  const bool many = edges.size() > kFarApart;
-  uint64_t sum = 0;
+  const auto touchEdge = [&](uint32_t e) {
+    if (e < edges.capacity()) touched += edges[e].lower;
+  };
   for (; i < end; ++i) {
-    const uint32_t v = events[i].node;
-    const uint32_t e = ending[2 * size_t(v) + (events[i].kind == VertexKind::LeftBank)];
-    sum += next[v] + prev[v];
+    const Event& event = events[i];
+    const uint32_t v = event.node;
+    uint32_t e = event.edge;
+    switch (event.kind) {
+      case VertexKind::LeftBank:
+        touched += loops->at[prev[v]].x > 0;
+        break;
+      case VertexKind::RightBank:
+        touched += loops->at[next[v]].x > 0;
+        break;
+      case VertexKind::Bottom:
+        touched += loops->at[prev[v]].x + loops->at[next[v]].x > 0;
+        touchEdge(e);
+        e = event.near;
+        break;
+      default:
+        break;
+    }
     if (e >= edges.capacity()) continue;
-    const uint32_t left = edges[e].left, right = edges[e].right;
-    sum += left;
-    if (!many) continue;
-    sum += (loops->at[next[v]].x > 0) + (loops->at[prev[v]].x > 0);
-    if (left < edges.capacity()) sum += edges[left].lower;
-    if (right < edges.capacity()) sum += edges[right].lower;
+    touchEdge(edges[e].left), touchEdge(edges[e].right);
   }
-  touched += sum;
 }
 
 void State::sweep(Work& work) {
@@ -236,7 +277,6 @@ void State::set(uint32_t e, uint32_t lower, uint32_t upper, uint32_t input, bool
   edge.lo = loops->at[lower], edge.hi = loops->at[upper];
   edge.lower = lower, edge.upper = upper;
   edge.input = input, edge.down = down;
-  ending[2 * size_t(upper) + down] = e;
   edges.remember(e, edge.lo.x);
 }
 
@@ -249,7 +289,7 @@ void State::see(uint32_t v, uint32_t left, uint32_t right) {
 }
 
 bool State::passMonotone(const Event& event, bool down) {
-  const uint32_t v = event.node, e = ending[2 * size_t(v) + down];
+  const uint32_t v = event.node, e = event.edge;
   const uint32_t left = edges[e].left, right = edges[e].right;
   if (left != kNone && !(side(left, event.at) < 0)) return false;
   if (right != kNone && !(side(right, event.at) > 0)) return false;
@@ -261,42 +301,30 @@ bool State::passMonotone(const Event& event, bool down) {
   return true;
 }
 
-/// An edge that crosses the sweep line and is not far from the node along its loop, if one is.
-uint32_t State::edgeNear(const Event& event) const {
-  if (!edges.takesHints()) return kNone;
-  uint32_t after = event.node, before = event.node;
-  for (int steps = 0; steps < kRingSteps; ++steps) {
-    const uint32_t a = loops->next[after], b = loops->prev[before];
-    if (below(loops->at[a], event.at)) return ending[2 * size_t(after) + 1];
-    if (below(loops->at[b], event.at)) return ending[2 * size_t(before)];
-    after = a, before = b;
-  }
-  return kNone;
-}
-
 bool State::passMinimum(const Event& event) {
   const uint32_t v = event.node, prev = loops->prev[v], next = loops->next[v];
   uint32_t left, right;
-  if (edges.find(event.at, edgeNear(event), left, right)) return false;
+  if (edges.find(event.at, event.near, left, right)) return false;
   const double shape = turn(event.at, loops->at[prev], loops->at[next]);
   if (shape == 0) return false;
   const bool concave = shape > 0;  // the link that leads up is left of the one that leads down
   if (concave != isInside(left)) misplace(v, inputOf(left));
   if (concave) loops->kind[v] = VertexKind::Sag;
   see(v, concave || sagsOnly ? left : kNone, concave ? right : kNone);
-  const uint32_t a = ending[2 * size_t(v)], b = a + 1;
-  edges.insertAfter(left, a), edges.insertAfter(a, b);
-  set(concave ? b : a, v, prev, prev, true);
-  set(concave ? a : b, v, next, v, false);
+  const uint32_t up = event.edge, down = up ^ 1;
+  edges.insertAfter(left, concave ? up : down);
+  edges.insertAfter(concave ? up : down, concave ? down : up);
+  set(down, v, prev, prev, true);
+  set(up, v, next, v, false);
   return true;
 }
 
 bool State::passMaximum(const Event& event) {
-  const uint32_t v = event.node;
-  const uint32_t up = ending[2 * size_t(v)], down = ending[2 * size_t(v) + 1];
-  const bool concave = edges[up].right == down;
-  if (!concave && edges[down].right != up) return false;
-  const uint32_t first = concave ? up : down, last = concave ? down : up;
+  const uint32_t v = event.node, up = event.edge;
+  const auto endsHere = [&](uint32_t e) { return e != kNone && edges[e].upper == v; };
+  const bool concave = endsHere(edges[up].right);
+  if (!concave && !endsHere(edges[up].left)) return false;
+  const uint32_t first = concave ? up : edges[up].left, last = concave ? edges[up].right : up;
   const uint32_t left = edges[first].left, right = edges[last].right;
   if (left != kNone && !(side(left, event.at) < 0)) return false;
   if (right != kNone && !(side(right, event.at) > 0)) return false;
@@ -308,7 +336,7 @@ bool State::passMaximum(const Event& event) {
 
 bool State::passIsland(const Event& event) {
   uint32_t left, right;
-  if (edges.find(event.at, edgeNear(event), left, right)) return false;
+  if (edges.find(event.at, event.near, left, right)) return false;
   if (!isInside(left)) misplace(event.node, inputOf(left));
   see(event.node, left, right);
   return true;

@@ -13,6 +13,8 @@ struct SweepState {
   struct Event {
     Point2 at;
     uint32_t node;
+    uint32_t edge;    // the record of a chain (`chains`) that the node is on
+    uint32_t near;    // of a local minimum: that of an edge which will not be far from it, or kNone
     VertexKind kind;  // as the two edges alone tell
   };
   /// One of the edges at a point where loops touch: `other` is the node at its other end, `node`
@@ -20,6 +22,7 @@ struct SweepState {
   struct HalfEdge {
     uint32_t node, other;
     Point2 to;
+    uint32_t edge;
     uint32_t input;
     bool down;
   };
@@ -28,11 +31,9 @@ struct SweepState {
   EdgeOrder edges;
   std::vector<Event> events, unsorted;
   std::vector<uint32_t> buckets;
-  std::vector<uint32_t> ending;   // [2m] the record of the edge that ends at node v from below: 2v
-                                  // for one that leads up, 2v+1 for one that leads down; of a local
-                                  // minimum, where none ends, 2v: the first of the two records kept
-                                  // for the edges that begin there
-  std::vector<uint32_t> records;  // free ones of minima where loops touch
+  // [m] The edges of a ring that lead up from a local minimum to a local maximum share one record,
+  // 2i or 2i+1 for minimum i. Of a node between two such chains the one along which its ring runs up.
+  std::vector<uint32_t> chains;
   std::vector<uint8_t> reversed;
   std::vector<HalfEdge> lower, upper;
   std::vector<uint32_t> strands;
@@ -51,6 +52,8 @@ struct SweepState {
 
   void findSpike();
   bool begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility& visibility, Work& work);
+  uint32_t numberChains();
+  uint32_t edgeNear(uint32_t v) const;
   void sortEvents(double least, double greatest);
   void sweep(Work& work);
   void touchAhead(size_t i, size_t end);
@@ -58,7 +61,6 @@ struct SweepState {
   /// crossing.
   size_t step(size_t i);
   bool passMonotone(const Event& event, bool down);
-  uint32_t edgeNear(const Event& event) const;
   bool passMinimum(const Event& event);
   bool passMaximum(const Event& event);
   bool passIsland(const Event& event);
@@ -72,8 +74,7 @@ struct SweepState {
   bool alternates(uint32_t left);
   void relink(uint32_t left, uint32_t right);
   void corner(VertexKind kind, const HalfEdge& in, HalfEdge& out, uint32_t left, uint32_t right);
-  uint32_t takeRecord();
-  void replaceBlock(uint32_t first, uint32_t left);
+  void replaceBlock(uint32_t left);
   bool reportDisorder(Point2 at);
 
   /// Where p is: positive to the left of edge e, negative to the right, 0 on it.

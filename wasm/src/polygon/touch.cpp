@@ -15,7 +15,6 @@ uint32_t State::newNode(uint32_t vertex, Point2 at) {
   loops->kind.push_back(VertexKind::Unused);
   seen->left.push_back(kNone);
   if (!sagsOnly) seen->right.push_back(kNone);
-  ending.resize(2 * loops->at.size());
   return v;
 }
 
@@ -44,7 +43,7 @@ bool State::passTouch(size_t i, size_t count) {
   } else if (!strandsPart()) {
     return false;
   }
-  replaceBlock(first, left);
+  replaceBlock(left);
   return true;
 }
 
@@ -57,14 +56,10 @@ bool State::findBlock(size_t i, size_t count, uint32_t& first, uint32_t& last, u
   for (size_t k = 0; k < count; ++k) {
     const uint32_t v = events[i + k].node;
     const VertexKind kind = loops->kind[v];
-    if (kind == VertexKind::Bottom) {
-      const uint32_t e = ending[2 * size_t(v)];
-      records.insert(records.end(), {e, e + 1});
-    }
     const bool up = kind == VertexKind::RightBank || kind == VertexKind::Ceiling;
     const bool down = kind == VertexKind::LeftBank || kind == VertexKind::Ceiling;
     ends += size_t(up) + size_t(down);
-    if (up || down) any = ending[2 * size_t(v) + down];
+    if (up || down) any = events[i + k].edge;
   }
   if (any == kNone) {
     uint32_t right;
@@ -116,14 +111,15 @@ void State::divide(uint32_t e, uint32_t vertex, Point2 at) {
 /// two of those above have one direction.
 bool State::collect(size_t i, size_t count, uint32_t first, uint32_t last, Point2 at) {
   lower.clear(), upper.clear();
-  const auto addUpper = [&](uint32_t v, uint32_t inputIn, uint32_t inputOut) {
+  const auto addUpper = [&](uint32_t v, uint32_t e, uint32_t inputIn, uint32_t inputOut) {
     const uint32_t prev = loops->prev[v], next = loops->next[v];
-    if (below(at, loops->at[prev])) upper.push_back({v, prev, loops->at[prev], inputIn, true});
-    if (below(at, loops->at[next])) upper.push_back({v, next, loops->at[next], inputOut, false});
+    const bool in = below(at, loops->at[prev]), out = below(at, loops->at[next]);
+    if (in) upper.push_back({v, prev, loops->at[prev], out ? e ^ 1 : e, inputIn, true});
+    if (out) upper.push_back({v, next, loops->at[next], e, inputOut, false});
   };
   for (size_t k = 0; k < count; ++k) {
     const uint32_t v = events[i + k].node;
-    addUpper(v, loops->prev[v], v);
+    addUpper(v, events[i + k].edge, loops->prev[v], v);
   }
   for (uint32_t e = first; e != kNone; e = e == last ? kNone : edges[e].right) {
     const CrossedEdge& edge = edges[e];
@@ -131,8 +127,8 @@ bool State::collect(size_t i, size_t count, uint32_t first, uint32_t last, Point
     const uint32_t v = !divided    ? edge.upper
                        : edge.down ? loops->prev[edge.lower]
                                    : loops->next[edge.lower];
-    lower.push_back({v, edge.lower, edge.lo, edge.input, bool(edge.down)});
-    if (divided) addUpper(v, edge.input, edge.input);
+    lower.push_back({v, edge.lower, edge.lo, e, edge.input, bool(edge.down)});
+    if (divided) addUpper(v, e, edge.input, edge.input);
   }
   std::sort(upper.begin(), upper.end(),
             [&](const HalfEdge& a, const HalfEdge& b) { return turn(at, a.to, b.to) < 0; });
@@ -221,33 +217,13 @@ void State::corner(VertexKind kind, const HalfEdge& in, HalfEdge& out, uint32_t 
   if (!sagsOnly || kind == VertexKind::Sag || kind == VertexKind::Bottom) see(v, left, right);
 }
 
-/// A record for an edge that begins at the point. At most two a local minimum are needed there, as many
-/// as are kept for it.
-uint32_t State::takeRecord() {
-  SF_ASSERT(!records.empty());
-  const uint32_t e = records.back();
-  records.pop_back();
-  return e;
-}
-
 /// Puts the half-edges above the point in the places of those below it.
-void State::replaceBlock(uint32_t first, uint32_t left) {
-  size_t old = lower.size();
-  uint32_t e = first, before = left;
+void State::replaceBlock(uint32_t left) {
+  for (const HalfEdge& half : lower) edges.remove(half.edge);
   for (const HalfEdge& half : upper) {
-    uint32_t place = e;
-    if (old > 0)
-      --old, e = edges[e].right;
-    else
-      edges.insertAfter(before, place = takeRecord());
-    set(place, half.node, half.other, half.input, half.down);
-    before = place;
-  }
-  for (; old > 0; --old) {
-    const uint32_t next = edges[e].right;
-    edges.remove(e);
-    records.push_back(e);
-    e = next;
+    edges.insertAfter(left, half.edge);
+    set(half.edge, half.node, half.other, half.input, half.down);
+    left = half.edge;
   }
 }
 
