@@ -137,20 +137,25 @@ bool RingLinker::goesToAndFro() const {
 constexpr VertexKind kKinds[4] = {VertexKind::LeftBank, VertexKind::Bottom, VertexKind::Ceiling,
                                   VertexKind::RightBank};
 
+/// `below`, 0 or 1, without a branch: none could be foretold.
+uint32_t rises(Point2 a, Point2 b) {
+  return uint32_t(a.y < b.y) | (uint32_t(a.y == b.y) & uint32_t(a.x < b.x));
+}
+
 void RingLinker::link(bool reversed) {
   const uint32_t turned = reversed ? 3 : 0;
-  uint32_t up = below(at_[last_], at_[first_]);
+  uint32_t up = rises(at_[last_], at_[first_]);
   uint32_t* before = (reversed ? p_.next : p_.prev).data();
   uint32_t* after = (reversed ? p_.prev : p_.next).data();
   VertexKind* kind = p_.kind.data();
   for (uint32_t i = first_; i < last_; ++i) {
-    const uint32_t upNext = below(at_[i], at_[i + 1]);
+    const uint32_t upNext = rises(at_[i], at_[i + 1]);
     // A direction that does not change turns round with the ring, one that does does not.
     kind[i] = kKinds[up == upNext ? (2 * up + upNext) ^ turned : 2 * up + upNext];
     before[i] = i - 1, after[i] = i + 1;
     up = upNext;
   }
-  const uint32_t upNext = below(at_[last_], at_[first_]);
+  const uint32_t upNext = rises(at_[last_], at_[first_]);
   kind[last_] = kKinds[up == upNext ? (2 * up + upNext) ^ turned : 2 * up + upNext];
   before[first_] = last_;
   before[last_] = last_ - 1, after[last_] = first_;

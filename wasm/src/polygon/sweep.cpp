@@ -13,7 +13,7 @@ using State = SweepState;
 
 namespace {
 
-constexpr size_t kFewToSort = 64, kFewInBucket = 8;
+constexpr size_t kFewToSort = 64, kFewInBucket = 8, kMostLayers = 1024;
 // Events whose data are touched at once; from how many nodes on they do not fit the nearer caches.
 constexpr size_t kAhead = 64, kFarApart = 8192;
 // How far along a loop to look for an edge near a new one.
@@ -170,27 +170,40 @@ uint32_t State::edgeNear(uint32_t v) const {
   return kNone;
 }
 
-/// Sorts the events by height: in buckets of even height, which suits most polygons, then each.
+/// Sorts the events by height: into as many buckets, which layers share in as they do in events, then
+/// each bucket.
 void State::sortEvents(double least, double greatest) {
   const auto isBelow = [](const Event& a, const Event& b) {
     return below(a.at, b.at) || (a.at == b.at && a.node < b.node);
   };
-  const size_t count = events.size(), last = count / 2;
-  const double scale = double(last) / (greatest - least);
+  const size_t count = events.size(), layerCount = std::min(count / kFewInBucket, kMostLayers);
+  const double scale = double(layerCount) / (greatest - least);
   if (count < kFewToSort || !(scale < 1e300)) {
     std::sort(events.begin(), events.end(), isBelow);
     return;
   }
+  layers.assign(layerCount + 1, {0, 0});
+  places.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    places[i] = uint32_t((events[i].at.y - least) * scale);
+    layers[places[i]].count += 1;
+  }
+  double sum = 0;
+  for (Layer& layer : layers) layer.below = sum, sum += layer.count;
+  buckets.assign(count + 2, 0);
+  for (size_t i = 0; i < count; ++i) {
+    const Layer& layer = layers[places[i]];
+    const double height = (events[i].at.y - least) * scale - places[i];
+    places[i] = uint32_t(layer.below + height * layer.count);
+    ++buckets[places[i] + 1];
+  }
+  for (size_t b = 1; b < buckets.size(); ++b) buckets[b] += buckets[b - 1];
   unsorted.swap(events);
   events.resize(count);
-  buckets.assign(last + 2, 0);
-  const auto bucketOf = [&](const Event& e) { return size_t((e.at.y - least) * scale); };
-  for (const Event& e : unsorted) ++buckets[bucketOf(e) + 1];
-  for (size_t b = 0; b <= last; ++b) buckets[b + 1] += buckets[b];
-  for (const Event& e : unsorted) events[buckets[bucketOf(e)]++] = e;
+  for (size_t i = 0; i < count; ++i) events[buckets[places[i]]++] = unsorted[i];
   // Each start has moved to the end of its bucket. Buckets of a few are sorted all together, by
   // insertion, since nothing moves out of its own.
-  for (size_t b = 0, begin = 0; b <= last; begin = buckets[b++])
+  for (size_t b = 0, begin = 0; b + 1 < buckets.size(); begin = buckets[b++])
     if (buckets[b] - begin > kFewInBucket)
       std::sort(events.begin() + ptrdiff_t(begin), events.begin() + ptrdiff_t(buckets[b]), isBelow);
   for (size_t i = 1; i < count; ++i) {
@@ -294,10 +307,8 @@ bool State::passMonotone(const Event& event, bool down) {
   if (left != kNone && !(side(left, event.at) < 0)) return false;
   if (right != kNone && !(side(right, event.at) > 0)) return false;
   if (!sagsOnly) see(v, down ? kNone : left, down ? right : kNone);
-  if (down)
-    set(e, v, loops->prev[v], loops->prev[v], true);
-  else
-    set(e, v, loops->next[v], v, false);
+  const uint32_t upper = (down ? loops->prev : loops->next)[v];
+  set(e, v, upper, down ? upper : v, down);
   return true;
 }
 

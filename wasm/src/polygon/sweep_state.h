@@ -27,10 +27,17 @@ struct SweepState {
     bool down;
   };
 
+  /// One of the layers of even height that events are sorted by: the number of events below it and in
+  /// it.
+  struct Layer {
+    double below, count;
+  };
+
   // Kept from polygon to polygon.
   EdgeOrder edges;
   std::vector<Event> events, unsorted;
-  std::vector<uint32_t> buckets;
+  std::vector<Layer> layers;
+  std::vector<uint32_t> buckets, places;
   // [m] The edges of a ring that lead up from a local minimum to a local maximum share one record,
   // 2i or 2i+1 for minimum i. Of a node between two such chains the one along which its ring runs up.
   std::vector<uint32_t> chains;
