@@ -286,10 +286,11 @@ function readArrays<const T extends readonly ArrayType[]>(
   types: T,
   borrowed = false,
 ): Arrays<T> {
+  const [data, size] = [find('sf_result_data'), find('sf_result_length')];
   return types.map((type, i) => {
-    const address = find('sf_result_data')(handle, i) >>> 0;
-    const length = find('sf_result_length')(handle, i) >>> 0;
+    const length = size(handle, i) >>> 0;
     if (length === 0) return new type(0);
+    const address = data(handle, i) >>> 0;
     const view = new type(memory.buffer, address, length);
     return borrowed ? view : view.slice();
   }) as unknown as Arrays<T>;
