@@ -15,7 +15,7 @@ namespace {
 
 constexpr size_t kFewToSort = 64, kFewInBucket = 8, kMostLayers = 1024;
 // Events whose data are touched at once; from how many nodes on they do not fit the nearer caches.
-constexpr size_t kAhead = 64, kFarApart = 8192;
+constexpr size_t kAhead = 64, kFarApart = 32768;
 // How far along a loop to look for an edge near a new one.
 constexpr int kRingSteps = 24;
 
@@ -60,7 +60,7 @@ Outcome PlaneSweep::run(const PolygonView& polygon, bool complement, bool sagsOn
   State& s = *state_;
   Charge charge(work);
   const uint64_t n = (polygon.positions.size() + polygon.points.size()) / 2 + 4;
-  const uint64_t perNode = sizeof(State::Event) + 5 * sizeof(uint32_t);
+  const uint64_t perNode = 2 * sizeof(State::Event) + 5 * sizeof(uint32_t);
   Outcome outcome;
   if (!charge.add(n * perNode)) {
     outcome.status = work.status();
