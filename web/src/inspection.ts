@@ -1,4 +1,5 @@
 // `window.__soapfilm`: the page's state, read-only, for its own tests and for a look from the console.
+import type { ReadonlySignal } from '@preact/signals';
 import type { Stage } from './scene/stage.ts';
 import type { Point2 } from './shapes/plane.ts';
 import type { Document } from './state/document.ts';
@@ -38,42 +39,29 @@ declare global {
   }
 }
 
-export function exposeForInspection(stage: Stage): void {
-  window.__soapfilm = {
-    get document() {
-      return doc.peek();
-    },
-    get solve() {
-      return solve.peek();
-    },
-    get surface() {
-      return surface.peek();
-    },
-    get isStale() {
-      return isStale.peek();
-    },
-    get isGrowing() {
-      return isGrowing.peek();
-    },
-    get selection() {
-      return selection.peek();
-    },
-    get tool() {
-      return tool.peek();
-    },
-    get notice() {
-      return notice.peek();
-    },
-    get canUndo() {
-      return canUndo.peek();
-    },
-    get canRedo() {
-      return canRedo.peek();
-    },
-    whereIs(curve, vertex) {
-      const { x, y } = stage.view.project(doc.peek().curves[curve][vertex]);
-      const box = stage.view.canvas.getBoundingClientRect();
-      return { x: box.left + x, y: box.top + y };
-    },
+type Signals = Readonly<Record<string, ReadonlySignal<unknown>>>;
+type Values<S extends Signals> = { readonly [K in keyof S]: S[K]['value'] };
+
+/** An object whose properties are the signals' values at the time. */
+export function valuesOf<S extends Signals>(signals: S): Values<S> {
+  const values = {};
+  for (const [name, signal] of Object.entries<ReadonlySignal<unknown>>(signals)) {
+    Object.defineProperty(values, name, { enumerable: true, get: () => signal.peek() });
+  }
+  return values as Values<S>;
+}
+
+/** A place on a canvas as one in the window, in CSS pixels. */
+export function inWindow(canvas: HTMLCanvasElement, x: number, y: number): { x: number; y: number } {
+  const { left, top } = canvas.getBoundingClientRect();
+  return { x: left + x, y: top + y };
+}
+
+export function exposeForInspection({ view }: Stage): void {
+  const whereIs: Inspection['whereIs'] = (curve, vertex) => {
+    const { x, y } = view.project(doc.peek().curves[curve][vertex]);
+    return inWindow(view.canvas, x, y);
   };
+  const now = valuesOf({ document: doc, solve, surface, isStale, isGrowing, selection, tool, notice, canUndo, canRedo });
+  window.__soapfilm = Object.assign(now, { whereIs });
 }

@@ -13,11 +13,12 @@ type Action =
   | { kind: 'drag'; pointer: number; frame: Frame; curve: number; vertex: number; grip: Point; moved: boolean };
 
 const kReach: Partial<Record<string, number>> = { pen: 14, touch: 24 };
-const kMouseReach = 11;
+/** How far from what it means the pointer may be, in CSS pixels. */
+export const reachOf = ({ pointerType }: PointerEvent): number => kReach[pointerType] ?? 11;
 /** A press that moves less is a click, in CSS pixels. */
 const kClickSlop = 5;
 /** Least extent of a stroke that becomes a curve, in CSS pixels. */
-const kLeastExtent = 16;
+export const kLeastExtent = 16;
 let gestures = 0;
 
 export interface PointerTools {
@@ -41,7 +42,6 @@ export function attachPointer(stage: Stage): PointerTools {
     const { from, direction } = view.ray(x, y);
     return meetPlane(frame, from, direction);
   };
-  const reach = (event: PointerEvent) => kReach[event.pointerType] ?? kMouseReach;
 
   const beginStroke = (event: PointerEvent): boolean => {
     const frame = stage.drawingPlane();
@@ -57,7 +57,7 @@ export function attachPointer(stage: Stage): PointerTools {
   };
 
   const beginDrag = (event: PointerEvent): boolean => {
-    const picked = stage.pick(at(event).x, at(event).y, reach(event));
+    const picked = stage.pick(at(event).x, at(event).y, reachOf(event));
     if (picked === null || picked.vertex === null) return false;
     const point = doc.peek().curves[picked.curve][picked.vertex];
     const frame = stage.dragPlane(point);
@@ -113,7 +113,7 @@ export function attachPointer(stage: Stage): PointerTools {
   const onMove = (event: PointerEvent) => {
     if (action === null) {
       const isFree = event.buttons === 0 && event.pointerType !== 'touch' && tool.peek() === 'select';
-      const under = isFree ? stage.pick(at(event).x, at(event).y, reach(event)) : null;
+      const under = isFree ? stage.pick(at(event).x, at(event).y, reachOf(event)) : null;
       const before = hover.peek();
       if (under?.curve !== before?.curve || under?.vertex !== before?.vertex) hover.value = under;
       canvas.dataset.over = under === null ? '' : under.vertex === null ? 'curve' : 'vertex';
@@ -167,7 +167,7 @@ export function attachPointer(stage: Stage): PointerTools {
     if (action === null) {
       const here = at(event);
       const isClick = press && Math.hypot(here.x - press.x, here.y - press.y) < kClickSlop;
-      if (isClick && event.button === 0 && tool.peek() === 'select') selection.value = stage.pick(here.x, here.y, reach(event));
+      if (isClick && event.button === 0 && tool.peek() === 'select') selection.value = stage.pick(here.x, here.y, reachOf(event));
       press = null;
       return;
     }

@@ -3,6 +3,7 @@ import type { Point2 } from '../shapes/plane.ts';
 import { closeStroke } from '../shapes/stroke.ts';
 import { history, polygonTool, ringPen, selectedRing, type RingPlace } from '../state/polygon.ts';
 import { say } from '../state/store.ts';
+import { kLeastExtent, reachOf } from './pointer.ts';
 import type { PolygonView } from './polygon_view.ts';
 
 type Action =
@@ -10,10 +11,6 @@ type Action =
   | { readonly kind: 'drag'; readonly at: RingPlace & { readonly vertex: number }; readonly grip: Point2 }
   | { readonly kind: 'pan' };
 
-const kReach: Partial<Record<string, number>> = { pen: 14, touch: 24 };
-const kMouseReach = 11;
-/** Least extent of a stroke that becomes a ring, in CSS pixels. */
-const kLeastExtent = 16;
 let gestures = 0;
 
 /** Attaches the pointer; what it returns ends what the pointer has begun, and says whether there was anything. */
@@ -69,7 +66,7 @@ export function attachPolygonPointer(view: PolygonView): () => boolean {
       action = { kind: 'stroke', points };
       return;
     }
-    const picked = isMain ? view.pick(place, kReach[event.pointerType] ?? kMouseReach) : null;
+    const picked = isMain ? view.pick(place, reachOf(event)) : null;
     if (isMain) selectedRing.value = picked;
     if (picked !== null && picked.vertex !== null) {
       gestures++;

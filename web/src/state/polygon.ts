@@ -10,6 +10,7 @@ import {
 } from 'soapfilm';
 import type { Point2 } from '../shapes/plane.ts';
 import { createHistory } from './history.ts';
+import type { Tool } from './store.ts';
 
 export type Ring = readonly Point2[];
 /** The outer ring, then the holes. */
@@ -102,7 +103,7 @@ function isInside([x, y]: Point2, ring: Ring): boolean {
 }
 
 export const selectedRing = signal<RingPlace | null>(null);
-export const polygonTool = signal<'select' | 'draw'>('select');
+export const polygonTool = signal<Tool>('select');
 /** Vertices of a drawn ring, and how much the hand is smoothed. */
 export const ringPen = signal({ count: 24, smoothing: 0.3 });
 

@@ -6,8 +6,8 @@ import type { Point } from '../shapes/vec.ts';
 import { apply, kEmptyDocument, type Command, type Document } from './document.ts';
 import { createHistory } from './history.ts';
 
-export const { doc, canUndo, canRedo, dispatch, endGesture, cancelGesture, forgetHistory, undo, redo } =
-  createHistory<Document, Command>(kEmptyDocument, apply, dropStaleSelection);
+export const history = createHistory<Document, Command>(kEmptyDocument, apply, dropStaleSelection);
+export const { doc, canUndo, canRedo, dispatch, endGesture, cancelGesture, forgetHistory, undo, redo } = history;
 
 /** What the page is for at the moment: films between curves in space, or polygons in the plane. */
 export type Mode = 'film' | 'polygon';

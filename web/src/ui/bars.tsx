@@ -1,30 +1,10 @@
-// The bar at the top, the tools beside the scene, and the pen's settings.
-import { useEffect, useRef, useState } from 'preact/hooks';
-import { signal } from '@preact/signals';
-import type { Stage } from '../scene/stage.ts';
-import type { PlaneKind } from '../shapes/plane.ts';
-import { openFile, saveLoops, savePicture, saveSurface } from '../state/files.ts';
-import { isStale, surface } from '../state/solving.ts';
-import {
-  canRedo,
-  canUndo,
-  dispatch,
-  doc,
-  drawing,
-  isGrowing,
-  mode,
-  redo,
-  selection,
-  tool,
-  undo,
-  type Drawing,
-  type Tool,
-} from '../state/store.ts';
-import { addCircle, deleteSelected } from './actions.ts';
-import { linear, NumberField, Segments, type Choice } from './controls.tsx';
-import { openDialog } from './dialogs.tsx';
-import { Icon, Logo, type IconName } from './icons.tsx';
-import { ModeSwitch, polygonModule } from './modes.tsx';
+// What the bars of both modes are made of.
+import type { ComponentChildren } from 'preact';
+import type { Signal } from '@preact/signals';
+import type { History } from '../state/history.ts';
+import type { Tool } from '../state/store.ts';
+import { linear, NumberField } from './controls.tsx';
+import { Icon, type IconName } from './icons.tsx';
 
 interface ButtonProps {
   readonly icon: IconName;
@@ -54,120 +34,66 @@ export function IconButton({ icon, label, text, keys, disabled, pressed, onClick
   );
 }
 
-/** The hidden file input; `chooseFile` opens the browser's dialog for it. */
+/** The file input in the page; `chooseFile` opens the browser's dialog for it. */
 let fileInput: HTMLInputElement | null = null;
 export function chooseFile(): void {
   fileInput?.click();
 }
 
-export function TopBar({ stage }: { stage: Stage }) {
-  return (
-    <header class="top-bar">
-      <h1>
-        <Logo />
-        <span>soapfilm</span>
-      </h1>
-      <ModeSwitch />
-      {mode.value === 'film' ? <FilmNav stage={stage} /> : polygonModule.value && <polygonModule.value.PolygonNav />}
-      {mode.value === 'film' && <span class="document-name">{doc.value.name}</span>}
-      {mode.value === 'film' && (
-        <IconButton icon="help" label="Keys and gestures" keys="?" onClick={() => (openDialog.value = 'help')} />
-      )}
-    </header>
-  );
+interface OpenButtonProps {
+  /** What the files hold. */
+  readonly of: string;
+  /** Their extensions, with dots and commas. */
+  readonly accept: string;
+  readonly open: (file: File) => Promise<void>;
 }
 
-function FilmNav({ stage }: { stage: Stage }) {
+export function OpenButton({ of, accept, open }: OpenButtonProps) {
   return (
-    <nav aria-label="Document">
-      <IconButton icon="gallery" label="Gallery" text="Gallery" keys="G" onClick={() => (openDialog.value = 'gallery')} />
+    <>
       <IconButton icon="open" label="Open a file" text="Open" keys="Ctrl O" onClick={chooseFile} />
       <input
         ref={(element) => {
-          fileInput = element;
+          // The one of the other mode may go only after this one has come.
+          if (element) fileInput = element;
         }}
         type="file"
         hidden
-        accept=".curve,.json,.obj,.txt"
-        aria-label="File of loops"
+        accept={accept}
+        aria-label={`File of ${of}`}
         onChange={(event) => {
           const input = event.currentTarget;
           const file = input.files?.[0];
           // So that the same file can be opened again.
-          if (file) void openFile(file).finally(() => (input.value = ''));
+          if (file) void open(file).finally(() => (input.value = ''));
         }}
       />
-      <ExportMenu stage={stage} />
-      <span class="rule" aria-hidden="true" />
-      <IconButton icon="undo" label="Undo" keys="Ctrl Z" disabled={!canUndo.value} onClick={undo} />
-      <IconButton icon="redo" label="Redo" keys="Ctrl Shift Z" disabled={!canRedo.value} onClick={redo} />
-    </nav>
+    </>
   );
 }
 
-const isMenuOpen = signal(false);
+type Steps = Pick<History<unknown, unknown>, 'canUndo' | 'canRedo' | 'undo' | 'redo'>;
 
-function ExportMenu({ stage }: { stage: Stage }) {
-  const root = useRef<HTMLDivElement>(null);
-  useEffect(() => {
-    const onPress = (event: Event) => {
-      if (!root.current?.contains(event.target as Node)) isMenuOpen.value = false;
-    };
-    window.addEventListener('pointerdown', onPress, { capture: true });
-    return () => {
-      window.removeEventListener('pointerdown', onPress, { capture: true });
-    };
-  }, []);
-  const hasSurface = surface.value !== null && !isStale.value;
-  const hasCurves = doc.value.curves.length > 0;
-  const items: readonly { label: string; note: string; enabled: boolean; run: () => unknown }[] = [
-    { label: 'Surface', note: 'OBJ', enabled: hasSurface, run: saveSurface },
-    { label: 'Curves', note: '.curve', enabled: hasCurves, run: () => saveLoops('curve') },
-    { label: 'Curves', note: 'JSON', enabled: hasCurves, run: () => saveLoops('json') },
-    { label: 'Picture', note: 'PNG', enabled: true, run: () => stage.view.picture().then(savePicture) },
-  ];
+export function HistoryButtons({ of: { canUndo, canRedo, undo, redo } }: { of: Steps }) {
   return (
-    <div
-      class="menu-root"
-      ref={root}
-      onKeyDown={(event) => {
-        if (event.key !== 'Escape' || !isMenuOpen.peek()) return;
-        isMenuOpen.value = false;
-        root.current?.querySelector('button')?.focus();
-        event.stopPropagation();
-      }}
-    >
-      <button
-        type="button"
-        class="icon-button with-text"
-        aria-label="Export"
-        title="Export"
-        aria-expanded={isMenuOpen.value}
-        onClick={() => (isMenuOpen.value = !isMenuOpen.peek())}
-      >
-        <Icon name="save" />
-        <span class="button-text">Export</span>
-      </button>
-      {isMenuOpen.value && (
-        <div class="menu">
-          {items.map(({ label, note, enabled, run }) => (
-            <button
-              key={note}
-              type="button"
-              disabled={!enabled}
-              onClick={() => {
-                isMenuOpen.value = false;
-                run();
-              }}
-            >
-              <span>{label}</span>
-              <span class="muted">{note}</span>
-            </button>
-          ))}
-        </div>
-      )}
-    </div>
+    <>
+      <span class="rule" aria-hidden="true" />
+      <IconButton icon="undo" label="Undo" keys="Ctrl Z" disabled={!canUndo.value} onClick={undo} />
+      <IconButton icon="redo" label="Redo" keys="Ctrl Shift Z" disabled={!canRedo.value} onClick={redo} />
+    </>
   );
+}
+
+type Deed = Pick<ButtonProps, 'label' | 'disabled' | 'onClick'>;
+
+interface ToolBarProps {
+  readonly tool: Signal<Tool>;
+  /** Deletes what is chosen. */
+  readonly bin: Deed;
+  /** Deletes everything. */
+  readonly clear: Deed;
+  /** Tools that this mode alone has. */
+  readonly children?: ComponentChildren;
 }
 
 const kTools: readonly { id: Tool; label: string; keys: string }[] = [
@@ -175,8 +101,7 @@ const kTools: readonly { id: Tool; label: string; keys: string }[] = [
   { id: 'draw', label: 'Draw', keys: 'D' },
 ];
 
-export function ToolBar() {
-  const hasCurves = doc.value.curves.length > 0;
+export function ToolBar({ tool, bin, clear, children }: ToolBarProps) {
   return (
     <div class="tool-bar floating" role="toolbar" aria-label="Tools" aria-orientation="vertical">
       {kTools.map(({ id, label, keys }) => (
@@ -189,144 +114,65 @@ export function ToolBar() {
           onClick={() => (tool.value = id)}
         />
       ))}
-      <IconButton icon="circle" label="Add a circle" keys="A" onClick={addCircle} />
+      {children}
       <span class="rule" aria-hidden="true" />
-      <IconButton
-        icon="trash"
-        label="Delete the chosen curve"
-        keys="Del"
-        disabled={selection.value === null}
-        onClick={deleteSelected}
-      />
-      <IconButton
-        icon="clear"
-        label="Clear all curves"
-        disabled={!hasCurves}
-        onClick={() => {
-          dispatch({ type: 'clear' });
-        }}
-      />
+      <IconButton icon="trash" keys="Del" {...bin} />
+      <IconButton icon="clear" {...clear} />
     </div>
   );
 }
 
-export function ViewBar({ stage }: { stage: Stage }) {
+interface ViewBarProps {
+  /** What the space bar does as well: begins something that plays, or ends it. */
+  readonly play: Deed & { readonly isOn: boolean };
+  readonly frameAll: () => void;
+  readonly children?: ComponentChildren;
+}
+
+export function ViewBar({ play: { isOn, ...play }, frameAll, children }: ViewBarProps) {
   return (
     <div class="view-bar floating" role="toolbar" aria-label="View">
-      {isGrowing.value ? (
-        <IconButton
-          icon="skip"
-          label="Show the whole surface now"
-          keys="Space"
-          onClick={() => {
-            stage.skipGrowth();
-          }}
-        />
-      ) : (
-        <IconButton
-          icon="play"
-          label="Let the surface appear again"
-          keys="Space"
-          disabled={surface.value === null}
-          onClick={() => {
-            stage.replay();
-          }}
-        />
-      )}
-      <IconButton
-        icon="fit"
-        label="All in view"
-        keys="F"
-        onClick={() => {
-          stage.frameAll();
-        }}
-      />
-      <IconButton
-        icon="face"
-        label="Face the drawing plane"
-        keys="P"
-        onClick={() => {
-          stage.facePlane();
-        }}
-      />
+      <IconButton icon={isOn ? 'skip' : 'play'} keys="Space" {...play} />
+      <IconButton icon="fit" label="All in view" keys="F" onClick={frameAll} />
+      {children}
     </div>
   );
 }
 
-const kPlanes: readonly Choice<PlaneKind>[] = [
-  { value: 'xy', label: 'XY' },
-  { value: 'yz', label: 'YZ' },
-  { value: 'zx', label: 'ZX' },
-  { value: 'view', label: 'View', title: 'Facing you, through the point that the view turns about' },
-];
-const kDrag: readonly Choice<Drawing['dragIn']>[] = [
-  { value: 'view', label: 'Screen', title: 'Vertices move in the plane of the screen' },
-  { value: 'plane', label: 'Drawing plane', title: 'Vertices move along the drawing plane' },
-];
+interface Pen {
+  readonly count: number;
+  readonly smoothing: number;
+}
 
-/** The settings of the tool in hand. */
-export function PenBar({ stage }: { stage: Stage }) {
-  // Folds on narrow screens only, where it would cover what is drawn.
-  const [isFolded, setFolded] = useState(true);
-  const { plane, offset, count, smoothing, dragIn } = drawing.value;
-  const change = (next: Partial<Drawing>) => {
-    drawing.value = { ...drawing.peek(), ...next };
-  };
-  const isDrawing = tool.value === 'draw';
-  if (!isDrawing && selection.value === null) return null;
-  const needsPlane = isDrawing || dragIn === 'plane';
-  const { radius } = stage.view;
+interface PenFieldsProps {
+  readonly pen: Pen;
+  /** What is drawn. */
+  readonly of: string;
+  readonly onChange: (change: Partial<Pen>) => void;
+}
+
+/** How a stroke becomes a closed line. */
+export function PenFields({ pen, of, onChange }: PenFieldsProps) {
   return (
-    <div class={isFolded ? 'pen-bar floating folded' : 'pen-bar floating'} role="group" aria-label={isDrawing ? 'Pen' : 'Dragging'}>
-      {isDrawing && (
-        <button
-          type="button"
-          class="icon-button pen-fold"
-          aria-label="Pen settings"
-          aria-expanded={!isFolded}
-          onClick={() => {
-            setFolded(!isFolded);
-          }}
-        >
-          <Icon name="chevron" />
-        </button>
-      )}
-      {!isDrawing && (
-        <Segments label="Drag in" choices={kDrag} value={dragIn} onChange={(value) => { change({ dragIn: value }); }} />
-      )}
-      {needsPlane && (
-        <Segments label="Plane" choices={kPlanes} value={plane} onChange={(value) => { change({ plane: value }); }} />
-      )}
-      {isDrawing && (
-        <div class="stack">
-          <NumberField
-            label="Offset"
-            title="Of the plane along its normal"
-            value={offset}
-            min={-Infinity}
-            scale={linear(-2 * radius, 2 * radius)}
-            onChange={(value) => { change({ offset: value }); }}
-          />
-          <NumberField
-            label="Vertices"
-            title="Of a drawn curve"
-            value={count}
-            min={3}
-            max={500}
-            whole
-            scale={linear(6, 100)}
-            onChange={(value) => { change({ count: value }); }}
-          />
-          <NumberField
-            label="Smoothing"
-            value={smoothing}
-            min={0}
-            max={1}
-            scale={linear(0, 1)}
-            onChange={(value) => { change({ smoothing: value }); }}
-          />
-        </div>
-      )}
-    </div>
+    <>
+      <NumberField
+        label="Vertices"
+        title={`Of a drawn ${of}`}
+        value={pen.count}
+        min={3}
+        max={500}
+        whole
+        scale={linear(6, 100)}
+        onChange={(count) => { onChange({ count }); }}
+      />
+      <NumberField
+        label="Smoothing"
+        value={pen.smoothing}
+        min={0}
+        max={1}
+        scale={linear(0, 1)}
+        onChange={(smoothing) => { onChange({ smoothing }); }}
+      />
+    </>
   );
 }

@@ -4,8 +4,9 @@ import type { CandidateSpace } from 'soapfilm';
 import { kPresets, presetOf, type RelativeWeights, type Settings } from '../state/document.ts';
 import { countOf } from '../state/files.ts';
 import { auto, setLive, solve, startSpan } from '../state/solving.ts';
-import { dispatch, doc, endGesture, selection, shown, type Shown } from '../state/store.ts';
+import { dispatch, doc, endGesture, selection } from '../state/store.ts';
 import { decades, NumberField, Section, Segments, Switch, type Choice } from './controls.tsx';
+import { Show } from './frame.tsx';
 import { Icon } from './icons.tsx';
 import { Result } from './result.tsx';
 
@@ -15,7 +16,7 @@ export function Inspector() {
       <Result />
       <Film />
       <Curves />
-      <Show />
+      <Show labels={{ surface: 'Surface', wires: 'Edges', vertices: 'Vertices', grid: 'Grid' }} />
     </>
   );
 }
@@ -170,30 +171,6 @@ function Curves() {
           Show all {curves.length}
         </button>
       )}
-    </Section>
-  );
-}
-
-const kShown: readonly { key: keyof Shown; label: string }[] = [
-  { key: 'surface', label: 'Surface' },
-  { key: 'wires', label: 'Edges' },
-  { key: 'vertices', label: 'Vertices' },
-  { key: 'grid', label: 'Grid' },
-];
-
-function Show() {
-  return (
-    <Section title="Show">
-      <div class="switches">
-        {kShown.map(({ key, label }) => (
-          <Switch
-            key={key}
-            label={label}
-            checked={shown.value[key]}
-            onChange={(checked) => (shown.value = { ...shown.peek(), [key]: checked })}
-          />
-        ))}
-      </div>
     </Section>
   );
 }

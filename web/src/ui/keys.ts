@@ -1,16 +1,17 @@
-// Keys: one table for the page, and the arrows while the scene has the focus.
+// Keys while films are made: one table.
 import type { PointerTools } from '../scene/pointer.ts';
 import type { Stage } from '../scene/stage.ts';
 import type { PlaneKind } from '../shapes/plane.ts';
 import { saveSurface } from '../state/files.ts';
 import { endSpan, solve } from '../state/solving.ts';
-import { dismissNotice, drawing, isGrowing, mode, notice, redo, selection, tool, undo } from '../state/store.ts';
+import { dismissNotice, drawing, history, isGrowing, notice, selection, tool } from '../state/store.ts';
 import { addCircle, deleteSelected, nudge, stepCurve, stepVertex } from './actions.ts';
-import { chooseFile } from './bars.tsx';
 import { openDialog } from './dialogs.tsx';
+import { attachKeyboard } from './keyboard.ts';
 
 const kPlanes: readonly PlaneKind[] = ['xy', 'yz', 'zx', 'view'];
 const kTurn = Math.PI / 24;
+const kCloser = 0.85;
 
 export function attachKeys(stage: Stage, pointer: PointerTools): void {
   const plain: Partial<Record<string, () => void>> = {
@@ -36,42 +37,18 @@ export function attachKeys(stage: Stage, pointer: PointerTools): void {
   kPlanes.forEach((plane, i) => {
     plain[String(i + 1)] = () => (drawing.value = { ...drawing.peek(), plane });
   });
-  const withControl: Partial<Record<string, () => void>> = { z: undo, y: redo, o: chooseFile, s: saveSurface };
-
-  window.addEventListener('keydown', (event) => {
-    if (mode.peek() !== 'film' || event.defaultPrevented || event.altKey) return;
-    if (openDialog.peek() !== null || isTyping(event)) return;
-    const key = event.key.toLowerCase();
-    const hasControl = event.ctrlKey || event.metaKey;
-    // A button takes the space bar for itself.
-    if (key === ' ' && event.target instanceof HTMLButtonElement) return;
-    const action = hasControl ? (key === 'z' && event.shiftKey ? redo : withControl[key]) : plain[key];
-    if (action) {
-      event.preventDefault();
-      action();
-    } else if (!hasControl && event.target === stage.view.canvas && onArrow(stage, event)) {
-      event.preventDefault();
-    }
+  attachKeyboard({
+    of: 'film',
+    history,
+    plain,
+    withControl: { s: saveSurface },
+    canvas: stage.view.canvas,
+    onArrow: (right, up, isFar) => {
+      const far = isFar ? 10 : 1;
+      if (!nudge(far * right, far * up)) stage.view.orbit(kTurn * right, -kTurn * up);
+    },
+    onZoom: (direction) => { stage.view.orbit(0, 0, direction === 'in' ? kCloser : 1 / kCloser); },
   });
-}
-
-function onArrow(stage: Stage, event: KeyboardEvent): boolean {
-  const far = event.shiftKey ? 10 : 1;
-  const moves: Partial<Record<string, readonly [right: number, up: number]>> = {
-    ArrowLeft: [-1, 0],
-    ArrowRight: [1, 0],
-    ArrowUp: [0, 1],
-    ArrowDown: [0, -1],
-  };
-  const move = moves[event.key];
-  if (move) {
-    if (!nudge(far * move[0], far * move[1])) stage.view.orbit(kTurn * move[0], -kTurn * move[1]);
-    return true;
-  }
-  if (event.key === '+' || event.key === '=') stage.view.orbit(0, 0, 0.85);
-  else if (event.key === '-') stage.view.orbit(0, 0, 1 / 0.85);
-  else return false;
-  return true;
 }
 
 /** Ends the nearest thing that can be ended. */
@@ -81,12 +58,4 @@ function escape(pointer: PointerTools): void {
   else if (notice.peek() !== null) dismissNotice();
   else if (selection.peek() !== null) selection.value = null;
   else tool.value = 'select';
-}
-
-/** Whether the key belongs to a field; sliders and radio buttons keep only their arrows. */
-function isTyping(event: KeyboardEvent): boolean {
-  const { target } = event;
-  if (!(target instanceof HTMLInputElement)) return false;
-  const isText = !['range', 'radio', 'checkbox'].includes(target.type);
-  return isText || event.key === ' ' || event.key.startsWith('Arrow');
 }

@@ -2,8 +2,10 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { computed } from '@preact/signals';
 import type { SoapfilmError } from 'soapfilm';
+import { inWindow, valuesOf } from '../inspection.ts';
 import { attachPolygonPointer } from '../scene/polygon_pointer.ts';
 import { PolygonView } from '../scene/polygon_view.ts';
+import type { Point2 } from '../shapes/plane.ts';
 import { countOf } from '../state/files.ts';
 import {
   flooding,
@@ -19,20 +21,14 @@ import {
   type Triangulated,
 } from '../state/polygon.ts';
 import { kPolygonExamples, onFrame, openPolygonExample, openPolygonFile } from '../state/polygon_files.ts';
-import { mode, shown, type Shown } from '../state/store.ts';
-import { IconButton } from './bars.tsx';
-import { linear, NumberField, Section, Segments, Switch, type Choice } from './controls.tsx';
-import { Icon } from './icons.tsx';
+import { HistoryButtons, OpenButton, PenFields, ToolBar, ViewBar } from './bars.tsx';
+import { Section, Segments, type Choice } from './controls.tsx';
+import { Frame, Show } from './frame.tsx';
 import { attachPolygonKeys, deleteChosen, toggleFlooding } from './polygon_keys.ts';
-import { Toast } from './toast.tsx';
+import { Row } from './result.tsx';
 import '../styles/polygon.css';
 
 export { openPolygonFile };
-
-let fileInput: HTMLInputElement | null = null;
-const chooseFile = (): void => {
-  fileInput?.click();
-};
 
 const summary = computed(() => {
   const found = triangulated.value;
@@ -68,14 +64,14 @@ const milliseconds = (seconds: number): string =>
 export function PolygonMode() {
   const canvas = useRef<HTMLCanvasElement>(null);
   const [view, setView] = useState<PolygonView | null>(null);
-  const [isOpen, setOpen] = useState(false);
+  const isEmpty = polygonDoc.value.polygons.length === 0;
   useEffect(() => {
     if (canvas.current === null) return;
     const made = new PolygonView(canvas.current);
     onFrame(() => {
       made.frameAll();
     });
-    attachPolygonKeys(made, attachPolygonPointer(made), chooseFile);
+    attachPolygonKeys(made, attachPolygonPointer(made));
     setView(made);
     if (polygonDoc.peek().polygons.length === 0) {
       openPolygonExample(kPolygonExamples[0]);
@@ -85,119 +81,69 @@ export function PolygonMode() {
     exposeForInspection(made);
   }, []);
   return (
-    <>
-      <div class="viewport">
-        <div class="scene">
-          <canvas
-            ref={canvas}
-            tabIndex={0}
-            role="application"
-            aria-label="Polygons. Arrows move the view or the chosen vertex; comma and full stop choose a vertex."
-            data-tool={polygonTool.value}
-          />
-        </div>
-        {polygonDoc.value.polygons.length === 0 && (
-          <div class="hint">
-            <p>Draw one stroke all the way round: it closes when you let go. A ring drawn inside another is a hole.</p>
-          </div>
-        )}
-        <Tools />
-        {view && <ViewBar view={view} />}
-        {flooding.value && <Step />}
-        {mode.value === 'polygon' && <Toast />}
-      </div>
-      <aside class={isOpen ? 'panel open' : 'panel'} aria-label="Polygons">
-        <button
-          type="button"
-          class="panel-handle"
-          aria-expanded={isOpen}
-          aria-controls="polygon-panel-body"
-          onClick={() => {
-            setOpen(!isOpen);
-          }}
-        >
-          <span>{summary.value}</span>
-          <Icon name="chevron" />
-        </button>
-        <div class="panel-body" id="polygon-panel-body">
+    <Frame
+      of="polygon"
+      label="Polygons"
+      summary={summary.value}
+      panel={
+        <>
           <Result />
           <Triangulation />
           <Examples />
-          <Show />
+          <Show labels={{ surface: 'Triangles', wires: 'Edges', vertices: 'Vertices' }} />
+        </>
+      }
+    >
+      <div class="scene">
+        <canvas
+          ref={canvas}
+          tabIndex={0}
+          role="application"
+          aria-label="Polygons. Arrows move the view or the chosen vertex; comma and full stop choose a vertex."
+          data-tool={polygonTool.value}
+        />
+      </div>
+      {isEmpty && (
+        <div class="hint">
+          <p>Draw one stroke all the way round: it closes when you let go. A ring drawn inside another is a hole.</p>
         </div>
-      </aside>
-      <p class="visually-hidden" role="status" aria-live="polite">
-        {summary.value}
-      </p>
-    </>
+      )}
+      <ToolBar
+        tool={polygonTool}
+        bin={{ label: 'Delete what is chosen', disabled: selectedRing.value === null, onClick: deleteChosen }}
+        clear={{
+          label: 'Clear all polygons',
+          disabled: isEmpty,
+          onClick: () => {
+            history.dispatch({ type: 'clear' });
+          },
+        }}
+      />
+      {view && (
+        <ViewBar
+          play={{
+            isOn: flooding.value !== null,
+            label: flooding.value ? 'Stop flooding' : 'Flood step by step',
+            disabled: isEmpty,
+            onClick: toggleFlooding,
+          }}
+          frameAll={() => {
+            view.frameAll();
+          }}
+        />
+      )}
+      <Step />
+    </Frame>
   );
 }
 
 /** The buttons of the bar at the top that are this mode's own. */
 export function PolygonNav() {
-  const { undo, redo, canUndo, canRedo } = history;
   return (
     <nav aria-label="Document">
-      <IconButton icon="open" label="Open a file" text="Open" keys="Ctrl O" onClick={chooseFile} />
-      <input
-        ref={(element) => {
-          fileInput = element;
-        }}
-        type="file"
-        hidden
-        accept=".geojson,.json,.curve,.obj,.txt"
-        aria-label="File of polygons"
-        onChange={(event) => {
-          const input = event.currentTarget;
-          const file = input.files?.[0];
-          if (file) void openPolygonFile(file).finally(() => (input.value = ''));
-        }}
-      />
-      <span class="rule" aria-hidden="true" />
-      <IconButton icon="undo" label="Undo" keys="Ctrl Z" disabled={!canUndo.value} onClick={undo} />
-      <IconButton icon="redo" label="Redo" keys="Ctrl Shift Z" disabled={!canRedo.value} onClick={redo} />
+      <OpenButton of="polygons" accept=".geojson,.json,.curve,.obj,.txt" open={openPolygonFile} />
+      <HistoryButtons of={history} />
     </nav>
-  );
-}
-
-function Tools() {
-  return (
-    <div class="tool-bar floating" role="toolbar" aria-label="Tools" aria-orientation="vertical">
-      <IconButton icon="select" label="Select" keys="V" pressed={polygonTool.value === 'select'} onClick={() => (polygonTool.value = 'select')} />
-      <IconButton icon="draw" label="Draw" keys="D" pressed={polygonTool.value === 'draw'} onClick={() => (polygonTool.value = 'draw')} />
-      <span class="rule" aria-hidden="true" />
-      <IconButton icon="trash" label="Delete what is chosen" keys="Del" disabled={selectedRing.value === null} onClick={deleteChosen} />
-      <IconButton
-        icon="clear"
-        label="Clear all polygons"
-        disabled={polygonDoc.value.polygons.length === 0}
-        onClick={() => {
-          history.dispatch({ type: 'clear' });
-        }}
-      />
-    </div>
-  );
-}
-
-function ViewBar({ view }: { view: PolygonView }) {
-  return (
-    <div class="view-bar floating" role="toolbar" aria-label="View">
-      <IconButton
-        icon={flooding.value ? 'skip' : 'play'}
-        label={flooding.value ? 'Stop flooding' : 'Flood step by step'}
-        keys="Space"
-        disabled={polygonDoc.value.polygons.length === 0}
-        onClick={toggleFlooding}
-      />
-      <IconButton
-        icon="fit"
-        label="All in view"
-        keys="F"
-        onClick={() => {
-          view.frameAll();
-        }}
-      />
-    </div>
   );
 }
 
@@ -254,10 +200,7 @@ function Figures({ found }: { found: Triangulated }) {
     <div class="figures">
       <dl>
         {rows.map(([name, value]) => (
-          <div key={name}>
-            <dt>{name}</dt>
-            <dd>{value}</dd>
-          </div>
+          <Row key={name} name={name} value={value} />
         ))}
       </dl>
     </div>
@@ -287,7 +230,6 @@ function Triangulation() {
   const set = (change: Partial<PolygonSettings>): void => {
     history.dispatch({ type: 'set', settings: change });
   };
-  const { count, smoothing } = ringPen.value;
   return (
     <Section title="Triangulation">
       <Segments label="Method" choices={kMethods} value={settings.method} onChange={(method) => { set({ method }); }} />
@@ -296,24 +238,7 @@ function Triangulation() {
       <Segments label="Repair" choices={kRepairs} value={settings.repair} onChange={(repair) => { set({ repair }); }} />
       {polygonTool.value === 'draw' && (
         <div class="stack">
-          <NumberField
-            label="Vertices"
-            title="Of a drawn ring"
-            value={count}
-            min={3}
-            max={500}
-            whole
-            scale={linear(6, 100)}
-            onChange={(value) => (ringPen.value = { ...ringPen.peek(), count: value })}
-          />
-          <NumberField
-            label="Smoothing"
-            value={smoothing}
-            min={0}
-            max={1}
-            scale={linear(0, 1)}
-            onChange={(value) => (ringPen.value = { ...ringPen.peek(), smoothing: value })}
-          />
+          <PenFields pen={ringPen.value} of="ring" onChange={(change) => (ringPen.value = { ...ringPen.peek(), ...change })} />
         </div>
       )}
     </Section>
@@ -341,47 +266,8 @@ function Examples() {
   );
 }
 
-const kShown: readonly { key: keyof Shown; label: string }[] = [
-  { key: 'surface', label: 'Triangles' },
-  { key: 'wires', label: 'Edges' },
-  { key: 'vertices', label: 'Vertices' },
-];
-
-function Show() {
-  return (
-    <Section title="Show">
-      <div class="switches">
-        {kShown.map(({ key, label }) => (
-          <Switch
-            key={key}
-            label={label}
-            checked={shown.value[key]}
-            onChange={(checked) => (shown.value = { ...shown.peek(), [key]: checked })}
-          />
-        ))}
-      </div>
-    </Section>
-  );
-}
-
 function exposeForInspection(view: PolygonView): void {
-  window.__polygons = {
-    get document() {
-      return polygonDoc.peek();
-    },
-    get triangulated() {
-      return triangulated.peek();
-    },
-    get flooding() {
-      return flooding.peek();
-    },
-    get selection() {
-      return selectedRing.peek();
-    },
-    whereIs(point) {
-      const [x, y] = view.toScreen(point);
-      const box = view.canvas.getBoundingClientRect();
-      return { x: box.left + x, y: box.top + y };
-    },
-  };
+  window.__polygons = Object.assign(valuesOf({ document: polygonDoc, triangulated, flooding, selection: selectedRing }), {
+    whereIs: (point: Point2) => inWindow(view.canvas, ...view.toScreen(point)),
+  });
 }

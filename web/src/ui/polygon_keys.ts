@@ -1,12 +1,15 @@
 // Keys while polygons are drawn: those of the page's other mode, as far as they make sense here.
 import type { PolygonView } from '../scene/polygon_view.ts';
 import { beginFlooding, flooding, history, polygonTool, selectedRing, type RingPlace } from '../state/polygon.ts';
-import { dismissNotice, mode, notice } from '../state/store.ts';
-import { openDialog } from './dialogs.tsx';
+import { dismissNotice, notice } from '../state/store.ts';
+import { attachKeyboard } from './keyboard.ts';
 
+/** What an arrow moves the view or a vertex by, in CSS pixels. */
 const kFar = 40;
+const kNear = 4;
+const kCloser = 1.2;
 
-export function attachPolygonKeys(view: PolygonView, cancel: () => boolean, chooseFile: () => void): void {
+export function attachPolygonKeys(view: PolygonView, cancel: () => boolean): void {
   const plain: Partial<Record<string, () => void>> = {
     v: () => (polygonTool.value = 'select'),
     d: () => (polygonTool.value = 'draw'),
@@ -26,18 +29,17 @@ export function attachPolygonKeys(view: PolygonView, cancel: () => boolean, choo
       else polygonTool.value = 'select';
     },
   };
-  const withControl: Partial<Record<string, () => void>> = { z: history.undo, y: history.redo, o: chooseFile };
-
-  window.addEventListener('keydown', (event) => {
-    if (mode.peek() !== 'polygon' || event.defaultPrevented || event.altKey) return;
-    if (openDialog.peek() !== null || isTyping(event)) return;
-    const key = event.key.toLowerCase();
-    if (key === ' ' && event.target instanceof HTMLButtonElement) return;
-    const hasControl = event.ctrlKey || event.metaKey;
-    const action = hasControl ? (key === 'z' && event.shiftKey ? history.redo : withControl[key]) : plain[key];
-    if (action) action();
-    else if (hasControl || event.target !== view.canvas || !onArrow(view, event)) return;
-    event.preventDefault();
+  attachKeyboard({
+    of: 'polygon',
+    history,
+    plain,
+    canvas: view.canvas,
+    onArrow: (right, up, isFar) => {
+      if (!nudge(view.lengthOf(isFar ? kFar : kNear), right, up)) view.pan(-kFar * right, kFar * up);
+    },
+    onZoom: (direction) => {
+      view.zoom(direction === 'in' ? kCloser : 1 / kCloser, [view.canvas.clientWidth / 2, view.canvas.clientHeight / 2]);
+    },
   });
 }
 
@@ -51,30 +53,13 @@ export function toggleFlooding(): void {
   else beginFlooding();
 }
 
-function onArrow(view: PolygonView, event: KeyboardEvent): boolean {
-  const moves: Partial<Record<string, readonly [right: number, up: number]>> = {
-    ArrowLeft: [-1, 0],
-    ArrowRight: [1, 0],
-    ArrowUp: [0, 1],
-    ArrowDown: [0, -1],
-  };
-  const move = moves[event.key];
-  const middle = [view.canvas.clientWidth / 2, view.canvas.clientHeight / 2] as const;
-  if (move) {
-    const at = selectedRing.peek();
-    if (at === null || at.vertex === null) {
-      view.pan(-kFar * move[0], kFar * move[1]);
-      return true;
-    }
-    const { polygon, ring, vertex } = at;
-    const [x, y] = history.doc.peek().polygons[polygon][ring][vertex];
-    const step = view.lengthOf(event.shiftKey ? kFar : 4);
-    history.dispatch({ type: 'move-vertex', at: { polygon, ring, vertex }, to: [x + step * move[0], y + step * move[1]] });
-    return true;
-  }
-  if (event.key === '+' || event.key === '=') view.zoom(1.2, middle);
-  else if (event.key === '-') view.zoom(1 / 1.2, middle);
-  else return false;
+/** Moves the chosen vertex by as many steps; says whether there was one. */
+function nudge(step: number, right: number, up: number): boolean {
+  const at = selectedRing.peek();
+  if (at === null || at.vertex === null) return false;
+  const { polygon, ring, vertex } = at;
+  const [x, y] = history.doc.peek().polygons[polygon][ring][vertex];
+  history.dispatch({ type: 'move-vertex', at: { polygon, ring, vertex }, to: [x + step * right, y + step * up] });
   return true;
 }
 
@@ -97,10 +82,4 @@ function stepVertex(step: 1 | -1): void {
   const { length } = history.doc.peek().polygons[at.polygon][at.ring];
   const from = at.vertex ?? (step > 0 ? -1 : length);
   selectedRing.value = { ...at, vertex: (from + step + length) % length };
-}
-
-/** Whether the key belongs to a field; sliders and radio buttons keep only their arrows. */
-function isTyping({ target, key }: KeyboardEvent): boolean {
-  if (!(target instanceof HTMLInputElement)) return false;
-  return !['range', 'radio', 'checkbox'].includes(target.type) || key === ' ' || key.startsWith('Arrow');
 }

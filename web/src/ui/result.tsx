@@ -166,7 +166,7 @@ function Figures({ span, faded }: { span: Span; faded: boolean }) {
   );
 }
 
-function Row(props: { name: string; value: string }) {
+export function Row(props: { name: string; value: string }) {
   return (
     <div>
       <dt>{props.name}</dt>
