@@ -155,9 +155,19 @@ test('GeoJSON: is opened, all its polygons', async ({ quietPage: page }) => {
   });
   await expect.poll(async () => (await stateOf(page)).polygons.length).toBe(3);
   expect((await stateOf(page)).area).toBeCloseTo(26.5, 9);
-  const broken = { name: 'no.geojson', mimeType: 'text/plain', buffer: Buffer.from('{"type": "Point"}') };
-  await page.getByLabel('File of polygons').setInputFiles(broken);
-  await expect(page.getByText('Could not open “no.geojson”')).toBeVisible();
+  await expect(page.getByText('Opened “squares.geojson”: 3 polygons.')).toBeVisible();
+  for (const [name, text, reason] of [
+    ['no.geojson', '{"type": "Point"}', 'it has no polygons'],
+    ['none.geojson', '{"type": "Polygon", "coordinates": []}', 'it has no polygons'],
+    ['five.geojson', '{"type": "Polygon", "coordinates": 5}', 'a list is missing in its GeoJSON'],
+    ['empty.geojson', '{"type": "Polygon", "coordinates": [[]]}', 'a ring in its GeoJSON has no points'],
+    ['words.geojson', '{"type": "Polygon", "coordinates": [[["a", "b"]]]}', 'a coordinate in its GeoJSON is not a number'],
+  ]) {
+    const broken = { name, mimeType: 'text/plain', buffer: Buffer.from(text) };
+    await page.getByLabel('File of polygons').setInputFiles(broken);
+    await expect(page.getByText(`Could not open “${name}”: ${reason}`)).toBeVisible();
+  }
+  expect((await stateOf(page)).polygons).toHaveLength(3);
 });
 
 test('flooding: goes step by step to the end, or is stopped', async ({ quietPage: page }) => {

@@ -5,30 +5,41 @@ import type { Example } from './gallery.ts';
 import { isStale, surface } from './solving.ts';
 import { dispatch, doc, requestFrame, say } from './store.ts';
 
-/** Files beyond this are not curves drawn by anyone. */
-const kMaxBytes = 64 * 2 ** 20;
+/** Files beyond this are not drawn by anyone. */
+const kMaxMegabytes = 64;
 
 type Formats = typeof import('./formats.ts');
 const fetchFormats = (): Promise<Formats> => import('./formats.ts');
 
-/** Opens a `.curve`, JSON or OBJ file in place of the document; says what is wrong if it cannot. */
-export async function openFile(file: File): Promise<void> {
-  if (file.size > kMaxBytes) {
-    say(`“${file.name}” has ${Math.round(file.size / 2 ** 20)} MB; files of loops are far smaller.`, 'error');
+/** Reads a file for `open`, which tells what it has opened; says so, or what is wrong. */
+export async function readFile(
+  file: File,
+  open: (bytes: Uint8Array, stem: string) => string | Promise<string>,
+): Promise<void> {
+  const megabytes = file.size / 2 ** 20;
+  if (megabytes > kMaxMegabytes) {
+    say(`“${file.name}” has ${Math.round(megabytes)} MB; no more than ${kMaxMegabytes} are opened.`, 'error');
     return;
   }
   try {
-    const { parseLoops } = await fetchFormats();
-    const loops = parseLoops(new Uint8Array(await file.arrayBuffer()));
-    const curves = fromLoopSet(loops);
-    dispatch({ type: 'open', name: loops.name ?? file.name.replace(/\.[^.]*$/, ''), curves });
-    requestFrame();
-    say(`Opened “${file.name}”: ${countOf(curves.length, 'curve')}.`);
+    const opened = await open(new Uint8Array(await file.arrayBuffer()), file.name.replace(/\.[^.]*$/, ''));
+    say(`Opened “${file.name}”: ${opened}.`);
   } catch (error) {
     const reason = error instanceof SoapfilmError ? error.message : 'the browser could not read it';
     say(`Could not open “${file.name}”: ${reason}`, 'error');
   }
 }
+
+/** Opens a `.curve`, JSON or OBJ file in place of the document; says what is wrong if it cannot. */
+export const openFile = (file: File): Promise<void> =>
+  readFile(file, async (bytes, stem) => {
+    const { parseLoops } = await fetchFormats();
+    const loops = parseLoops(bytes);
+    const curves = fromLoopSet(loops);
+    dispatch({ type: 'open', name: loops.name ?? stem, curves });
+    requestFrame();
+    return countOf(curves.length, 'curve');
+  });
 
 export function openExample(example: Example, variant: number | undefined, atOnce = false): void {
   dispatch({

@@ -1,10 +1,8 @@
 // Polygons from files, and a few to begin with.
 import { parseLoops, SoapfilmError } from 'soapfilm';
 import type { Point2 } from '../shapes/plane.ts';
+import { countOf, readFile } from './files.ts';
 import { history, type Polygon, type Ring } from './polygon.ts';
-import { say } from './store.ts';
-
-const kMaxBytes = 64 * 2 ** 20;
 
 /** A view of the whole is wanted. */
 type Framer = () => void;
@@ -14,19 +12,13 @@ export function onFrame(framer: Framer): void {
 }
 
 /** Opens GeoJSON, or loops as `.curve`, JSON or OBJ: these are seen from above, as one polygon. */
-export async function openPolygonFile(file: File): Promise<void> {
-  try {
-    if (file.size > kMaxBytes) throw new Error('it is too large');
-    const bytes = new Uint8Array(await file.arrayBuffer());
+export const openPolygonFile = (file: File): Promise<void> =>
+  readFile(file, (bytes, name) => {
     const polygons = polygonsOfGeoJSON(bytes) ?? [ringsOfLoops(bytes)];
-    const stem = file.name.replace(/\.[^.]*$/, '');
-    history.dispatch({ type: 'open', name: stem, polygons });
+    history.dispatch({ type: 'open', name, polygons });
     frame();
-    say(`Opened “${file.name}”: ${polygons.length.toLocaleString('en')} polygons.`);
-  } catch (error) {
-    say(`Could not open “${file.name}”: ${error instanceof Error ? error.message : 'unreadable'}`, 'error');
-  }
-}
+    return countOf(polygons.length, 'polygon');
+  });
 
 /** Null for anything but GeoJSON. */
 function polygonsOfGeoJSON(bytes: Uint8Array): Polygon[] | null {
@@ -38,26 +30,41 @@ function polygonsOfGeoJSON(bytes: Uint8Array): Polygon[] | null {
   }
   if (typeof found !== 'object' || found === null || !('type' in found)) return null;
   const polygons: Polygon[] = [];
-  const todo: unknown[] = [found];
-  while (todo.length > 0) {
-    const { type, features, geometry, geometries, coordinates } = (todo.pop() ?? {}) as Record<string, unknown>;
-    if (type === 'FeatureCollection') todo.push(...[...(features as unknown[])].reverse());
-    if (type === 'GeometryCollection') todo.push(...[...(geometries as unknown[])].reverse());
-    if (type === 'Feature') todo.push(geometry);
-    if (type === 'Polygon') polygons.push(polygonOf(coordinates));
-    if (type === 'MultiPolygon') polygons.push(...(coordinates as unknown[]).map(polygonOf));
-  }
-  if (polygons.length === 0) throw new Error('it has no polygons');
+  collect(found, polygons);
+  if (polygons.length === 0) throw new SoapfilmError('bad-file', 'it has no polygons');
   return polygons;
 }
 
-/** Rings of points, without the end that repeats the beginning. */
-function polygonOf(rings: unknown): Polygon {
-  return (rings as number[][][]).map((ring) => {
-    const points = ring.map(([x, y]): Point2 => [x, y]);
-    const [first, last] = [points[0], points[points.length - 1]];
-    return first[0] === last[0] && first[1] === last[1] ? points.slice(0, -1) : points;
+/** Adds the polygons of a geometry, a feature, or a collection. */
+function collect(geoJSON: unknown, polygons: Polygon[]): void {
+  const { type, features, geometry, geometries, coordinates } = (geoJSON ?? {}) as Record<string, unknown>;
+  const add = (list: unknown): void => {
+    const rings = listOf(list).map(ringOf);
+    // GeoJSON has empty geometries.
+    if (rings.length > 0) polygons.push(rings);
+  };
+  if (type === 'FeatureCollection') for (const feature of listOf(features)) collect(feature, polygons);
+  if (type === 'GeometryCollection') for (const part of listOf(geometries)) collect(part, polygons);
+  if (type === 'Feature') collect(geometry, polygons);
+  if (type === 'Polygon') add(coordinates);
+  if (type === 'MultiPolygon') listOf(coordinates).forEach(add);
+}
+
+function listOf(value: unknown): readonly unknown[] {
+  if (Array.isArray(value)) return value;
+  throw new SoapfilmError('bad-file', 'a list is missing in its GeoJSON');
+}
+
+/** The points of a ring, without the end that repeats the beginning. */
+function ringOf(ring: unknown): Ring {
+  const points = listOf(ring).map((point): Point2 => {
+    const [x, y] = listOf(point);
+    if (typeof x === 'number' && typeof y === 'number') return [x, y];
+    throw new SoapfilmError('bad-file', 'a coordinate in its GeoJSON is not a number');
   });
+  if (points.length === 0) throw new SoapfilmError('bad-file', 'a ring in its GeoJSON has no points');
+  const [first, last] = [points[0], points[points.length - 1]];
+  return first[0] === last[0] && first[1] === last[1] ? points.slice(0, -1) : points;
 }
 
 function ringsOfLoops(bytes: Uint8Array): Polygon {
