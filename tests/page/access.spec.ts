@@ -73,3 +73,14 @@ test('focus: tab reaches bar, scene, tools and panel in reading order', async ({
   expect(places.every((place) => place >= 0), seen.join(' | ')).toBe(true);
   expect(places).toEqual([...places].sort((a, b) => a - b));
 });
+
+test('a tool in hand: looks so under the pointer as well', async ({ quietPage: page }) => {
+  await openPage(page);
+  const draw = page.getByRole('button', { name: 'Draw', exact: true });
+  const background = () => draw.evaluate((button) => getComputedStyle(button).backgroundColor);
+  await page.keyboard.press('d');
+  await expect(draw).toHaveAttribute('aria-pressed', 'true');
+  const inHand = await background();
+  await draw.hover();
+  expect(await background()).toBe(inHand);
+});
