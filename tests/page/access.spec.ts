@@ -19,6 +19,7 @@ for (const colorScheme of ['light', 'dark'] as const) {
     await check('the gallery');
     await page.keyboard.press('Escape');
     await page.getByRole('button', { name: 'Keys and gestures' }).click();
+    await expect(page.getByRole('dialog')).toContainText('Face the drawing plane');
     await check('the help sheet');
     await page.keyboard.press('Escape');
     await page.getByLabel('File of loops').setInputFiles({

@@ -195,6 +195,16 @@ test('the modes: the address tells which, and each keeps what it has', async ({ 
   expect((await stateOf(page)).polygons).toEqual([]);
 });
 
+test('the bar at the top: names the document; help is on this mode’s own keys', async ({ quietPage: page }) => {
+  await openMode(page);
+  await expect(page.locator('.document-name')).toHaveText('Pond with islands');
+  await page.keyboard.press('?');
+  await expect(page.getByRole('dialog')).toContainText('inside another it is a hole');
+  await expect(page.getByRole('dialog')).not.toContainText('drawing plane');
+  await page.keyboard.press('Escape');
+  await expect(page.getByRole('dialog')).toBeHidden();
+});
+
 test('for all: no fault that axe finds', async ({ quietPage: page }) => {
   await openMode(page);
   const { violations } = await new AxeBuilder({ page }).analyze();

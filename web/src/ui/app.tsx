@@ -21,10 +21,8 @@ export function App({ stage, scene }: { stage: Stage; scene: HTMLElement }) {
         </h1>
         <ModeSwitch />
         {isFilm ? <FilmNav stage={stage} /> : polygons && <polygons.PolygonNav />}
-        {isFilm && <span class="document-name">{doc.value.name}</span>}
-        {isFilm && (
-          <IconButton icon="help" label="Keys and gestures" keys="?" onClick={() => (openDialog.value = 'help')} />
-        )}
+        <span class="document-name">{(isFilm ? doc : polygons?.polygonDoc)?.value.name}</span>
+        <IconButton icon="help" label="Keys and gestures" keys="?" onClick={() => (openDialog.value = 'help')} />
       </header>
       <FilmMode stage={stage} scene={scene} />
       {polygons && <polygons.PolygonMode />}

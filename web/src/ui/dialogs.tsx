@@ -1,6 +1,6 @@
-// The gallery and the help sheet.
+// The gallery and the help sheet, as dialogs.
 import type { ComponentChildren } from 'preact';
-import { useLayoutEffect, useRef, useState } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { signal } from '@preact/signals';
 import { boundsOf, cross, dot, normalize, subtract, type Point } from '../shapes/vec.ts';
 import { openExample } from '../state/files.ts';
@@ -127,74 +127,19 @@ function Sketch({ example, variant }: { example: Example; variant: number | unde
   );
 }
 
-const kHelp: readonly { title: string; rows: readonly (readonly [keys: string, what: string])[] }[] = [
-  {
-    title: 'Tools',
-    rows: [
-      ['V', 'Select: drag a vertex; drag elsewhere to turn the view'],
-      ['D', 'Draw: one stroke all the way round is one closed curve'],
-      ['A', 'Add a circle in the drawing plane'],
-      ['1 2 3 4', 'Drawing plane XY, YZ, ZX, facing you'],
-      ['P', 'Face the drawing plane'],
-    ],
-  },
-  {
-    title: 'View',
-    rows: [
-      ['F', 'All curves in view'],
-      ['Wheel, pinch', 'Zoom'],
-      ['Right drag, two fingers', 'Move; while drawing, turn'],
-      ['Alt drag', 'Turn, with either tool'],
-      ['Arrows, + −', 'Turn and zoom, with the scene in focus'],
-      ['Space', 'Let the surface appear again'],
-    ],
-  },
-  {
-    title: 'Edit',
-    rows: [
-      ['Ctrl Z', 'Undo'],
-      ['Ctrl Shift Z, Ctrl Y', 'Redo'],
-      ['[ ]', 'Previous and next curve'],
-      [', .', 'Previous and next vertex'],
-      ['Arrows', 'Move the chosen vertex in the screen; Shift: further'],
-      ['Delete', 'Delete the chosen curve'],
-      ['Esc', 'Cancel the stroke, the drag or the span; choose nothing'],
-    ],
-  },
-  {
-    title: 'File',
-    rows: [
-      ['Ctrl O', 'Open .curve, JSON or OBJ; or drop a file on the page'],
-      ['Ctrl S', 'Export the surface as OBJ'],
-      ['G', 'Gallery'],
-    ],
-  },
-];
+type HelpModule = typeof import('./help.tsx');
 
+/** The sheet is fetched when it is first wanted. */
 export function Help() {
+  const [found, setFound] = useState<HelpModule | 'none' | null>(null);
+  const isWanted = openDialog.value === 'help';
+  useEffect(() => {
+    if (!isWanted || (found && found !== 'none')) return;
+    import('./help.tsx').then(setFound, () => { setFound('none'); });
+  }, [isWanted]);
   return (
     <Dialog id="help" title="Keys and gestures">
-      <p class="muted">
-        Closed curves in, the best surface out: of all manifold triangulations made of the candidate triangles, the one
-        of least cost. On a Mac, Ctrl is ⌘.
-      </p>
-      <div class="help-columns">
-        {kHelp.map(({ title, rows }) => (
-          <section key={title}>
-            <h3>{title}</h3>
-            <dl>
-              {rows.map(([keys, what]) => (
-                <div key={keys}>
-                  <dt>
-                    <kbd>{keys}</kbd>
-                  </dt>
-                  <dd>{what}</dd>
-                </div>
-              ))}
-            </dl>
-          </section>
-        ))}
-      </div>
+      {found === 'none' ? <p>The sheet could not be loaded.</p> : found && <found.HelpSheet />}
     </Dialog>
   );
 }

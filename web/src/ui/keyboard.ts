@@ -1,7 +1,8 @@
 // The keyboard: one listener for each mode, the keys that both have, and the arrows while a canvas
 // has the focus.
+import type { Signal } from '@preact/signals';
 import type { History } from '../state/history.ts';
-import { mode, type Mode } from '../state/store.ts';
+import { mode, type Mode, type Tool } from '../state/store.ts';
 import { chooseFile } from './bars.tsx';
 import { openDialog } from './dialogs.tsx';
 
@@ -11,7 +12,8 @@ interface Keyboard {
   /** Keys count only while the page is in this mode. */
   readonly of: Mode;
   readonly history: Pick<History<unknown, unknown>, 'undo' | 'redo'>;
-  /** By `KeyboardEvent.key` in lower case. */
+  readonly tool: Signal<Tool>;
+  /** By `KeyboardEvent.key` in lower case, besides the tools and the help sheet. */
   readonly plain: Table;
   /** With Ctrl or ⌘, besides undo, redo and opening a file. */
   readonly withControl?: Table;
@@ -29,8 +31,13 @@ const kArrows: Partial<Record<string, readonly [right: number, up: number]>> = {
 };
 const kZooms: Partial<Record<string, 'in' | 'out'>> = { '+': 'in', '=': 'in', '-': 'out' };
 
-export function attachKeyboard({ of, history, plain, canvas, ...keyboard }: Keyboard): void {
-  const { undo, redo } = history;
+export function attachKeyboard({ of, history: { undo, redo }, tool, canvas, ...keyboard }: Keyboard): void {
+  const plain: Table = {
+    v: () => (tool.value = 'select'),
+    d: () => (tool.value = 'draw'),
+    '?': () => (openDialog.value = 'help'),
+    ...keyboard.plain,
+  };
   const withControl: Table = { z: undo, y: redo, o: chooseFile, ...keyboard.withControl };
 
   const actionOf = (event: KeyboardEvent): (() => void) | undefined => {

@@ -15,13 +15,10 @@ const kCloser = 0.85;
 
 export function attachKeys(stage: Stage, pointer: PointerTools): void {
   const plain: Partial<Record<string, () => void>> = {
-    v: () => (tool.value = 'select'),
-    d: () => (tool.value = 'draw'),
     a: addCircle,
     g: () => (openDialog.value = 'gallery'),
     f: () => { stage.frameAll(); },
     p: () => { stage.facePlane(); },
-    '?': () => (openDialog.value = 'help'),
     '[': () => { stepCurve(-1); },
     ']': () => { stepCurve(1); },
     ',': () => { stepVertex(-1); },
@@ -40,6 +37,7 @@ export function attachKeys(stage: Stage, pointer: PointerTools): void {
   attachKeyboard({
     of: 'film',
     history,
+    tool,
     plain,
     withControl: { s: saveSurface },
     canvas: stage.view.canvas,

@@ -28,7 +28,7 @@ import { attachPolygonKeys, deleteChosen, toggleFlooding } from './polygon_keys.
 import { Row } from './result.tsx';
 import '../styles/polygon.css';
 
-export { openPolygonFile };
+export { openPolygonFile, polygonDoc };
 
 const summary = computed(() => {
   const found = triangulated.value;

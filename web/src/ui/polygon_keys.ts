@@ -11,8 +11,6 @@ const kCloser = 1.2;
 
 export function attachPolygonKeys(view: PolygonView, cancel: () => boolean): void {
   const plain: Partial<Record<string, () => void>> = {
-    v: () => (polygonTool.value = 'select'),
-    d: () => (polygonTool.value = 'draw'),
     f: () => { view.frameAll(); },
     '[': () => { stepRing(-1); },
     ']': () => { stepRing(1); },
@@ -32,6 +30,7 @@ export function attachPolygonKeys(view: PolygonView, cancel: () => boolean): voi
   attachKeyboard({
     of: 'polygon',
     history,
+    tool: polygonTool,
     plain,
     canvas: view.canvas,
     onArrow: (right, up, isFar) => {

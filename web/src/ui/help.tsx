@@ -1,0 +1,124 @@
+// The help sheet: what keys and gestures do in either mode.
+import { mode, type Mode } from '../state/store.ts';
+
+interface Group {
+  readonly title: string;
+  readonly rows: readonly (readonly [keys: string, what: string])[];
+}
+
+const kUndo: Group['rows'] = [
+  ['Ctrl Z', 'Undo'],
+  ['Ctrl Shift Z, Ctrl Y', 'Redo'],
+];
+
+const kHelp: Record<Mode, { readonly about: string; readonly groups: readonly Group[] }> = {
+  film: {
+    about:
+      'Closed curves in, the best surface out: of all manifold triangulations made of the candidate triangles, the one of least cost.',
+    groups: [
+      {
+        title: 'Tools',
+        rows: [
+          ['V', 'Select: drag a vertex; drag elsewhere to turn the view'],
+          ['D', 'Draw: one stroke all the way round is one closed curve'],
+          ['A', 'Add a circle in the drawing plane'],
+          ['1 2 3 4', 'Drawing plane XY, YZ, ZX, facing you'],
+          ['P', 'Face the drawing plane'],
+        ],
+      },
+      {
+        title: 'View',
+        rows: [
+          ['F', 'All curves in view'],
+          ['Wheel, pinch', 'Zoom'],
+          ['Right drag, two fingers', 'Move; while drawing, turn'],
+          ['Alt drag', 'Turn, with either tool'],
+          ['Arrows, + −', 'Turn and zoom, with the scene in focus'],
+          ['Space', 'Let the surface appear again'],
+        ],
+      },
+      {
+        title: 'Edit',
+        rows: [
+          ...kUndo,
+          ['[ ]', 'Previous and next curve'],
+          [', .', 'Previous and next vertex'],
+          ['Arrows', 'Move the chosen vertex in the screen; Shift: further'],
+          ['Delete', 'Delete the chosen curve'],
+          ['Esc', 'Cancel the stroke, the drag or the span; choose nothing'],
+        ],
+      },
+      {
+        title: 'File',
+        rows: [
+          ['Ctrl O', 'Open .curve, JSON or OBJ; or drop a file on the page'],
+          ['Ctrl S', 'Export the surface as OBJ'],
+          ['G', 'Gallery'],
+        ],
+      },
+    ],
+  },
+  polygon: {
+    about: 'Polygons with holes in, triangles out: they lie inside and cover everything.',
+    groups: [
+      {
+        title: 'Tools',
+        rows: [
+          ['V', 'Select: drag a vertex; drag elsewhere to move the view'],
+          ['D', 'Draw: one stroke all the way round is one ring; inside another it is a hole'],
+        ],
+      },
+      {
+        title: 'View',
+        rows: [
+          ['F', 'All polygons in view'],
+          ['Wheel, pinch', 'Zoom'],
+          ['Right drag, two fingers', 'Move, with either tool'],
+          ['Arrows, + −', 'Move and zoom, with the drawing in focus'],
+          ['Space', 'Flood step by step, or stop'],
+        ],
+      },
+      {
+        title: 'Edit',
+        rows: [
+          ...kUndo,
+          ['[ ]', 'Previous and next ring'],
+          [', .', 'Previous and next vertex'],
+          ['Arrows', 'Move the chosen vertex; Shift: further'],
+          ['Delete', 'Delete the chosen vertex or ring'],
+          ['Esc', 'Cancel the stroke, the drag or the flooding; choose nothing'],
+        ],
+      },
+      {
+        title: 'File',
+        rows: [['Ctrl O', 'Open GeoJSON, .curve, JSON or OBJ; or drop a file on the page']],
+      },
+    ],
+  },
+};
+
+export function HelpSheet() {
+  const { about, groups } = kHelp[mode.value];
+  return (
+    <>
+      <p class="muted">{about} On a Mac, Ctrl is ⌘.</p>
+      <div class="help-columns">
+        {groups.map(({ title, rows }) => (
+          <section key={title}>
+            <h3>{title}</h3>
+            <dl>
+              {rows.map(([keys, what]) => (
+                <div key={keys}>
+                  <dt>
+                    <kbd>{keys}</kbd>
+                  </dt>
+                  <dd>{what}</dd>
+                </div>
+              ))}
+            </dl>
+          </section>
+        ))}
+      </div>
+    </>
+  );
+}
