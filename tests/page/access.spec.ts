@@ -16,6 +16,7 @@ for (const colorScheme of ['light', 'dark'] as const) {
     await check('the draw tool and the export menu');
     await page.keyboard.press('Escape');
     await page.getByRole('button', { name: 'Gallery' }).click();
+    await expect(page.getByRole('dialog')).toContainText('Monkey saddle');
     await check('the gallery');
     await page.keyboard.press('Escape');
     await page.getByRole('button', { name: 'Keys and gestures' }).click();

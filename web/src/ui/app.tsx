@@ -4,7 +4,7 @@ import type { Stage } from '../scene/stage.ts';
 import { openFile } from '../state/files.ts';
 import { doc, mode } from '../state/store.ts';
 import { IconButton } from './bars.tsx';
-import { Gallery, Help, openDialog } from './dialogs.tsx';
+import { Dialogs, openDialog } from './dialogs.tsx';
 import { FilmMode, FilmNav } from './film.tsx';
 import { Logo } from './icons.tsx';
 import { ModeSwitch, polygonModule } from './modes.tsx';
@@ -27,8 +27,7 @@ export function App({ stage, scene }: { stage: Stage; scene: HTMLElement }) {
       <FilmMode stage={stage} scene={scene} />
       {polygons && <polygons.PolygonMode />}
       <DropZone />
-      <Gallery />
-      <Help />
+      <Dialogs />
     </>
   );
 }

@@ -1,5 +1,83 @@
-// The help sheet: what keys and gestures do in either mode.
+// What stands in the dialogs: the gallery, and what keys and gestures do in either mode.
+import { useState } from 'preact/hooks';
+import { boundsOf, cross, dot, normalize, subtract, type Point } from '../shapes/vec.ts';
+import { openExample } from '../state/files.ts';
+import { kGallery, type Example } from '../state/gallery.ts';
 import { mode, type Mode } from '../state/store.ts';
+import { openDialog } from './dialogs.tsx';
+
+export function Gallery() {
+  return (
+    <ul class="cards">
+      {kGallery.map((example) => (
+        <Card key={example.id} example={example} />
+      ))}
+    </ul>
+  );
+}
+
+function Card({ example }: { example: Example }) {
+  const [variant, setVariant] = useState(example.variants?.values[0]);
+  const open = (value: number | undefined) => {
+    openExample(example, value);
+    openDialog.value = null;
+  };
+  return (
+    <li class="card">
+      <button
+        type="button"
+        class="card-open"
+        onClick={() => {
+          open(variant);
+        }}
+      >
+        <Sketch example={example} variant={variant} />
+        <span class="card-title">{example.title}</span>
+        <span class="muted">{example.note}</span>
+      </button>
+      {example.variants && (
+        <div class="card-variants" role="group" aria-label={`${example.variants.label}: ${example.title}`}>
+          {[...example.variants.values].sort((a, b) => a - b).map((value) => (
+            <button
+              key={value}
+              type="button"
+              class={value === variant ? 'chosen' : ''}
+              aria-label={`${value} ${example.variants?.label.toLowerCase() ?? ''}`}
+              onFocus={() => {
+                setVariant(value);
+              }}
+              onPointerEnter={() => {
+                setVariant(value);
+              }}
+              onClick={() => {
+                open(value);
+              }}
+            >
+              {value}
+            </button>
+          ))}
+        </div>
+      )}
+    </li>
+  );
+}
+
+/** The curves of an example in outline, seen from its own direction. */
+function Sketch({ example, variant }: { example: Example; variant: number | undefined }) {
+  const toViewer = normalize(example.view);
+  const right = normalize(cross([0, 0, 1], toViewer));
+  const up = cross(toViewer, right);
+  const curves = example.curves(variant).map((curve) => curve.map((p): Point => [dot(p, right), -dot(p, up), 0]));
+  const { center, diagonal } = boundsOf(curves);
+  const at = (p: Point) => subtract(p, center).slice(0, 2).map((x) => ((100 * x) / diagonal).toFixed(1)).join(',');
+  return (
+    <svg class="sketch" viewBox="-62 -46 124 92" aria-hidden="true">
+      {curves.map((curve, i) => (
+        <polygon key={i} points={curve.map(at).join(' ')} />
+      ))}
+    </svg>
+  );
+}
 
 interface Group {
   readonly title: string;
@@ -97,7 +175,7 @@ const kHelp: Record<Mode, { readonly about: string; readonly groups: readonly Gr
   },
 };
 
-export function HelpSheet() {
+export function Help() {
   const { about, groups } = kHelp[mode.value];
   return (
     <>
