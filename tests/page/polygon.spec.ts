@@ -187,7 +187,10 @@ test('the modes: the address tells which, and each keeps what it has', async ({ 
   await stateOf(page);
   expect(new URL(page.url()).hash).toBe('#polygon');
   await page.getByRole('button', { name: 'Clear all polygons' }).click();
+  await page.getByLabel('File of polygons').setInputFiles({ name: 'no.json', mimeType: 'text/plain', buffer: Buffer.from('no') });
+  await expect(page.getByText('Could not open “no.json”')).toBeVisible();
   await page.getByRole('button', { name: 'Film', exact: true }).click();
+  await expect(page.getByText('Could not open “no.json”')).toBeHidden();
   await expect(page.getByRole('button', { name: 'Clear all curves' })).toBeVisible();
   // Undo is the film's own here.
   await page.keyboard.press('Control+z');

@@ -1,6 +1,6 @@
 // The page's two modes. That of polygons is fetched when it is first wanted.
 import { effect, signal } from '@preact/signals';
-import { mode, say, type Mode } from '../state/store.ts';
+import { dismissNotice, mode, say, type Mode } from '../state/store.ts';
 
 type PolygonModule = typeof import('./polygon.tsx');
 
@@ -48,6 +48,8 @@ export function ModeSwitch() {
           title={title}
           aria-pressed={mode.value === id}
           onClick={() => {
+            // What it says is about the mode that is left.
+            dismissNotice();
             chooseMode(id);
           }}
         >
