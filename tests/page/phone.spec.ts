@@ -1,3 +1,4 @@
+import '../../web/src/inspection.ts';
 import { expect, expectSpans, hasCurves, lookFrom, openPage, spanned, stateOf, test } from './support.ts';
 
 test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
@@ -49,4 +50,52 @@ test('a narrow screen: nothing is wider than it', async ({ quietPage: page }) =>
     const box = await button.boundingBox();
     expect(Math.min(box?.width ?? 0, box?.height ?? 0)).toBeGreaterThanOrEqual(40);
   }
+});
+
+test('a narrow screen: nothing that floats covers another, and the modes stay where they are', async ({ quietPage: page }) => {
+  await openPage(page);
+  const boxes = (selector: string) =>
+    page.locator(selector).evaluateAll((found) =>
+      found
+        .map((element) => element.getBoundingClientRect())
+        .filter(({ width }) => width > 0)
+        .map(({ left, top, right, bottom }) => ({ left, top, right, bottom })),
+    );
+  const expectApart = async () => {
+    // Remarks pass by themselves, at any time.
+    const floating = await boxes('.floating:not(.toast)');
+    for (const [i, a] of floating.entries()) {
+      for (const b of floating.slice(i + 1)) {
+        const isApart = a.right + 4 <= b.left || b.right + 4 <= a.left || a.bottom + 4 <= b.top || b.bottom + 4 <= a.top;
+        expect(isApart, JSON.stringify([a, b])).toBe(true);
+      }
+    }
+    return floating.length;
+  };
+  const modes = await boxes('.modes');
+  await page.getByRole('button', { name: 'Draw', exact: true }).tap();
+  expect(await expectApart()).toBe(3);
+  await page.getByRole('button', { name: 'Select', exact: true }).tap();
+  const ring = (z: number) =>
+    Array.from({ length: 46 }, (_, i) => {
+      const t = (2 * Math.PI * i) / 46;
+      return [Math.cos(t) + 0.2 * Math.cos(7 * t + z), Math.sin(t), z + 0.3 * Math.sin(3 * t + z)];
+    });
+  await page.locator('.panel-handle').tap();
+  await page.getByRole('radio', { name: 'All', exact: true }).check();
+  await page.getByLabel('File of loops').setInputFiles({
+    name: 'heavy.json',
+    mimeType: 'text/plain',
+    buffer: Buffer.from(JSON.stringify([ring(0), ring(1.5), ring(3)])),
+  });
+  await expect(page.locator('.busy')).toBeVisible();
+  expect(await expectApart()).toBe(3);
+  await page.locator('.busy').getByRole('button').tap();
+  await page.locator('.panel-handle').tap();
+  await page.getByRole('button', { name: 'Polygon', exact: true }).tap();
+  await page.waitForFunction(() => window.__polygons?.triangulated);
+  expect(await boxes('.modes')).toEqual(modes);
+  await page.getByRole('button', { name: 'Flood step by step' }).tap();
+  await expect(page.locator('.flood-step')).toBeVisible();
+  expect(await expectApart()).toBe(3);
 });
