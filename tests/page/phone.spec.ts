@@ -99,3 +99,20 @@ test('a narrow screen: nothing that floats covers another, and the modes stay wh
   await expect(page.locator('.flood-step')).toBeVisible();
   expect(await expectApart()).toBe(3);
 });
+
+test('polygons on a phone: all in view with the panel open, and as before once it is closed', async ({ quietPage: page }) => {
+  await page.goto('?aa=0&dpr=1#polygon');
+  await page.waitForFunction(() => window.__polygons?.triangulated);
+  const places = () =>
+    page.evaluate(() => window.__polygons?.document.polygons.flat(2).map((point) => window.__polygons?.whereIs(point)) ?? []);
+  const handle = page.getByRole('button', { name: /triangles/ });
+  const before = await places();
+  await handle.tap();
+  await expect.poll(places).not.toEqual(before);
+  const box = await page.getByRole('application', { name: /^Polygons/ }).boundingBox();
+  if (box === null) throw new Error('The canvas is not in the page.');
+  const bottom = box.y + box.height;
+  await expect.poll(async () => Math.max(...(await places()).map((place) => place?.y ?? Infinity))).toBeLessThan(bottom);
+  await handle.tap();
+  await expect.poll(async () => Math.abs(((await places())[0]?.y ?? 0) - (before[0]?.y ?? 0))).toBeLessThan(0.01);
+});

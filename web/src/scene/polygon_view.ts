@@ -25,6 +25,8 @@ export class PolygonView {
   private center: Point2 = [0, 0];
   private scale = 60;
   private wanted = 0;
+  /** The canvas's lesser extent, in CSS pixels. */
+  private extent = 0;
   /** The stroke that is being drawn. */
   stroke: readonly Point2[] = [];
 
@@ -32,7 +34,9 @@ export class PolygonView {
     const redraw = (): void => {
       this.invalidate();
     };
-    new ResizeObserver(redraw).observe(canvas);
+    new ResizeObserver(() => {
+      this.resize();
+    }).observe(canvas);
     window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
     for (const state of [polygonDoc, triangulated, selectedRing, shown, flooding]) state.subscribe(redraw);
     effect(() => {
@@ -48,6 +52,16 @@ export class PolygonView {
       this.wanted = 0;
       this.draw();
     });
+  }
+
+  /** What was in view stays so, as when the panel opens below the canvas. */
+  private resize(): void {
+    const extent = Math.min(this.canvas.clientWidth, this.canvas.clientHeight);
+    // It has no size while the page is in its other mode.
+    if (extent === 0) return;
+    if (this.extent > 0) this.scale *= extent / this.extent;
+    this.extent = extent;
+    this.invalidate();
   }
 
   toScreen([x, y]: Point2): Point2 {
