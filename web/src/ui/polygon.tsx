@@ -89,6 +89,13 @@ export function PolygonMode() {
         <>
           <Result />
           <Triangulation />
+          {polygonTool.value === 'draw' && (
+            <Section title="Pen">
+              <div class="stack">
+                <PenFields pen={ringPen.value} of="ring" onChange={(change) => (ringPen.value = { ...ringPen.peek(), ...change })} />
+              </div>
+            </Section>
+          )}
           <Examples />
           <Show labels={{ surface: 'Triangles', wires: 'Edges', vertices: 'Vertices' }} />
         </>
@@ -177,11 +184,15 @@ function Result() {
         <div class="message error" key={error.polygon}>
           <p>{wordsFor(error)}</p>
           <p class="muted">
-            The place is marked in red. {polygonDoc.value.settings.repair === 'none' && 'Repair would make the best of it.'}
+            The place is marked in red. {polygonDoc.value.settings.repair === 'none' && 'With Repair on, it is triangulated all the same.'}
           </p>
         </div>
       ))}
-      {found && polygonDoc.value.polygons.length > 0 && <Figures found={found} />}
+      {polygonDoc.value.polygons.length === 0 ? (
+        <p class="muted">No polygons yet. Draw one, open a file, or take an example.</p>
+      ) : (
+        found && <Figures found={found} />
+      )}
     </Section>
   );
 }
@@ -236,11 +247,6 @@ function Triangulation() {
       <Segments label="Output" choices={kOutputs} value={settings.output} onChange={(output) => { set({ output }); }} />
       <Segments label="Quality" choices={kQualities} value={settings.quality} onChange={(quality) => { set({ quality }); }} />
       <Segments label="Repair" choices={kRepairs} value={settings.repair} onChange={(repair) => { set({ repair }); }} />
-      {polygonTool.value === 'draw' && (
-        <div class="stack">
-          <PenFields pen={ringPen.value} of="ring" onChange={(change) => (ringPen.value = { ...ringPen.peek(), ...change })} />
-        </div>
-      )}
     </Section>
   );
 }
