@@ -82,6 +82,8 @@ test('the first polygon: triangulated by both methods alike, as strips too', asy
 test('drawing: a ring is a polygon, a ring inside it a hole; undo takes them back', async ({ quietPage: page }) => {
   await openMode(page);
   await page.getByRole('button', { name: 'Clear all polygons' }).click();
+  await page.getByRole('button', { name: 'Draw a polygon' }).click();
+  await expect(page.getByText('A ring drawn inside another is a hole.')).toBeVisible();
   await draw(page, { x: 0.5, y: 0.5, radius: 180 });
   const one = await stateOf(page);
   expect(one.polygons.map((rings) => rings.length)).toEqual([1]);

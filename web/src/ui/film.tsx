@@ -10,7 +10,7 @@ import { addCircle, deleteSelected } from './actions.ts';
 import { HistoryButtons, IconButton, OpenButton, PenFields, ToolBar, ViewBar } from './bars.tsx';
 import { linear, NumberField, Segments, type Choice } from './controls.tsx';
 import { openDialog } from './dialogs.tsx';
-import { Frame } from './frame.tsx';
+import { Frame, Hint } from './frame.tsx';
 import { Gizmo } from './gizmo.tsx';
 import { Icon } from './icons.tsx';
 import { Inspector } from './inspector.tsx';
@@ -45,7 +45,13 @@ export function FilmMode({ stage, scene }: { stage: Stage; scene: HTMLElement })
           if (element && scene.parentElement !== element) element.append(scene);
         }}
       />
-      <Hint />
+      {doc.value.curves.length === 0 && (
+        <Hint tool={tool} drawing="Draw one stroke all the way round: it closes when you let go." draw="Draw a curve">
+          <button type="button" class="button" onClick={() => (openDialog.value = 'gallery')}>
+            Open the gallery
+          </button>
+        </Hint>
+      )}
       <ToolBar
         tool={tool}
         bin={{ label: 'Delete the chosen curve', disabled: selection.value === null, onClick: deleteSelected }}
@@ -161,29 +167,6 @@ function ExportMenu({ stage }: { stage: Stage }) {
             </button>
           ))}
         </div>
-      )}
-    </div>
-  );
-}
-
-function Hint() {
-  if (doc.value.curves.length > 0) return null;
-  return (
-    <div class="hint">
-      {tool.value === 'draw' ? (
-        <p>Draw one stroke all the way round: it closes when you let go.</p>
-      ) : (
-        <>
-          <p>Nothing here yet.</p>
-          <div class="hint-actions">
-            <button type="button" class="button primary" onClick={() => (tool.value = 'draw')}>
-              Draw a curve
-            </button>
-            <button type="button" class="button" onClick={() => (openDialog.value = 'gallery')}>
-              Open the gallery
-            </button>
-          </div>
-        </>
       )}
     </div>
   );

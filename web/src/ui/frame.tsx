@@ -1,7 +1,8 @@
 // What a mode stands in: the scene with all that floats over it, and the panel beside it.
 import type { ComponentChildren } from 'preact';
 import { useId, useState } from 'preact/hooks';
-import { dismissNotice, mode, notice, shown, type Mode, type Shown } from '../state/store.ts';
+import type { Signal } from '@preact/signals';
+import { dismissNotice, mode, notice, shown, type Mode, type Shown, type Tool } from '../state/store.ts';
 import { Section, Switch } from './controls.tsx';
 import { Icon } from './icons.tsx';
 
@@ -65,6 +66,37 @@ function Toast() {
             <Icon name="close" />
           </button>
         </div>
+      )}
+    </div>
+  );
+}
+
+interface HintProps {
+  readonly tool: Signal<Tool>;
+  /** What to do with the pen in hand. */
+  readonly drawing: string;
+  /** On the button that puts it there. */
+  readonly draw: string;
+  /** Other ways to begin. */
+  readonly children?: ComponentChildren;
+}
+
+/** How to begin, over a scene with nothing in it. */
+export function Hint({ tool, drawing, draw, children }: HintProps) {
+  return (
+    <div class="hint">
+      {tool.value === 'draw' ? (
+        <p>{drawing}</p>
+      ) : (
+        <>
+          <p>Nothing here yet.</p>
+          <div class="hint-actions">
+            <button type="button" class="button primary" onClick={() => (tool.value = 'draw')}>
+              {draw}
+            </button>
+            {children}
+          </div>
+        </>
       )}
     </div>
   );

@@ -23,7 +23,7 @@ import {
 import { kPolygonExamples, onFrame, openPolygonExample, openPolygonFile } from '../state/polygon_files.ts';
 import { HistoryButtons, OpenButton, PenFields, ToolBar, ViewBar } from './bars.tsx';
 import { Section, Segments, type Choice } from './controls.tsx';
-import { Frame, Show } from './frame.tsx';
+import { Frame, Hint, Show } from './frame.tsx';
 import { attachPolygonKeys, deleteChosen, toggleFlooding } from './polygon_keys.ts';
 import { Row } from './result.tsx';
 import '../styles/polygon.css';
@@ -111,9 +111,11 @@ export function PolygonMode() {
         />
       </div>
       {isEmpty && (
-        <div class="hint">
-          <p>Draw one stroke all the way round: it closes when you let go. A ring drawn inside another is a hole.</p>
-        </div>
+        <Hint
+          tool={polygonTool}
+          drawing="Draw one stroke all the way round: it closes when you let go. A ring drawn inside another is a hole."
+          draw="Draw a polygon"
+        />
       )}
       <ToolBar
         tool={polygonTool}
