@@ -179,6 +179,9 @@ test('flooding: goes step by step to the end, or is stopped', async ({ quietPage
   await expect(page.locator('.flood-step')).toBeVisible();
   await page.keyboard.press('Escape');
   expect((await stateOf(page)).flooded).toBeNull();
+  await page.getByRole('button', { name: 'Crossing star' }).click();
+  await page.getByRole('button', { name: 'Flood step by step' }).click();
+  await expect(page.getByText('There is nothing to flood')).toBeVisible();
 });
 
 test('the modes: the address tells which, and each keeps what it has', async ({ quietPage: page }) => {

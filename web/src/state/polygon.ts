@@ -10,7 +10,7 @@ import {
 } from 'soapfilm';
 import type { Point2 } from '../shapes/plane.ts';
 import { createHistory } from './history.ts';
-import type { Tool } from './store.ts';
+import { say, type Tool } from './store.ts';
 
 export type Ring = readonly Point2[];
 /** The outer ring, then the holes. */
@@ -182,7 +182,8 @@ export function beginFlooding(): void {
     }
     first += polygon.flat().length;
   }
-  if (steps.length > 0) flooding.value = { triangles: Uint32Array.from(triangles), steps, taken: 0 };
+  if (steps.length === 0) say('There is nothing to flood: only polygons that need no repair are.');
+  else flooding.value = { triangles: Uint32Array.from(triangles), steps, taken: 0 };
 }
 
 /** The next steps; the end shows everything for good. */
