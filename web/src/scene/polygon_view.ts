@@ -19,6 +19,8 @@ const kHues = 24;
 /** More vertices than this are not dotted. */
 const kMostDots = 4000;
 const kFloodFrames = 300;
+/** What the bar of tools covers at the side, in CSS pixels. */
+const kToolBar = 72;
 
 export class PolygonView {
   /** The plane's point in the middle, and CSS pixels a unit. */
@@ -100,8 +102,9 @@ export class PolygonView {
     const { clientWidth, clientHeight } = this.canvas;
     if (left > right || clientWidth === 0) return;
     this.center = [(left + right) / 2, (low + high) / 2];
-    const size = Math.max((right - left) / clientWidth, (high - low) / clientHeight);
-    this.scale = size > 0 ? 0.8 / size : 60;
+    const width = Math.max(clientWidth - 2 * kToolBar, clientWidth / 2);
+    const size = Math.max((right - left) / width, (high - low) / (0.8 * clientHeight));
+    this.scale = size > 0 ? 1 / size : 60;
     this.invalidate();
   }
 
