@@ -48,6 +48,8 @@ async function exported(page: Page, entry: string): Promise<{ file: string; byte
 
 test('open by button: a .curve file is spanned', async ({ quietPage: page }) => {
   await openPage(page);
+  await page.keyboard.press(']');
+  expect((await stateOf(page)).selection).not.toBeNull();
   const chooser = page.waitForEvent('filechooser');
   await page.getByRole('button', { name: 'Open a file' }).click();
   await (await chooser).setFiles({ name: 'box.curve', mimeType: 'text/plain', buffer: Buffer.from(kTwoSquares) });
@@ -56,6 +58,7 @@ test('open by button: a .curve file is spanned', async ({ quietPage: page }) => 
   await hasCurves(page, 2);
   const { span, curves } = await spanned(page);
   expect(curves[1][2]).toEqual([2, 2, 1]);
+  expect((await stateOf(page)).selection).toBeNull();
   expectSpans(span, 2);
 });
 

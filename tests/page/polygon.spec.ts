@@ -137,6 +137,10 @@ test('a vertex: is dragged, moved by keys, and deleted', async ({ quietPage: pag
   expect((await stateOf(page)).area).not.toBe(before.area);
   await page.keyboard.press('Delete');
   expect((await stateOf(page)).triangles).toBe(before.triangles - 1);
+  await page.keyboard.press(']');
+  expect((await stateOf(page)).chosen).not.toBeNull();
+  await page.getByRole('button', { name: 'Interleaved combs' }).click();
+  expect((await stateOf(page)).chosen).toBeNull();
 });
 
 test('GeoJSON: is opened, all its polygons', async ({ quietPage: page }) => {

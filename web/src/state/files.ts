@@ -3,7 +3,7 @@ import { SoapfilmError } from 'soapfilm';
 import { fromLoopSet, toLoopSet } from './document.ts';
 import type { Example } from './gallery.ts';
 import { isStale, surface } from './solving.ts';
-import { dispatch, doc, requestFrame, say } from './store.ts';
+import { dispatch, doc, requestFrame, say, selection } from './store.ts';
 
 /** Files beyond this are not drawn by anyone. */
 const kMaxMegabytes = 64;
@@ -36,12 +36,14 @@ export const openFile = (file: File): Promise<void> =>
     const { parseLoops } = await fetchFormats();
     const loops = parseLoops(bytes);
     const curves = fromLoopSet(loops);
+    selection.value = null;
     dispatch({ type: 'open', name: loops.name ?? stem, curves });
     requestFrame();
     return countOf(curves.length, 'curve');
   });
 
 export function openExample(example: Example, variant: number | undefined, atOnce = false): void {
+  selection.value = null;
   dispatch({
     type: 'open',
     name: variant === undefined ? example.title : `${example.title} (${variant})`,

@@ -2,7 +2,7 @@
 import { parseLoops, SoapfilmError } from 'soapfilm';
 import type { Point2 } from '../shapes/plane.ts';
 import { countOf, readFile } from './files.ts';
-import { history, type Polygon, type Ring } from './polygon.ts';
+import { history, selectedRing, type Polygon, type Ring } from './polygon.ts';
 
 /** A view of the whole is wanted. */
 type Framer = () => void;
@@ -15,10 +15,15 @@ export function onFrame(framer: Framer): void {
 export const openPolygonFile = (file: File): Promise<void> =>
   readFile(file, (bytes, name) => {
     const polygons = polygonsOfGeoJSON(bytes) ?? [ringsOfLoops(bytes)];
-    history.dispatch({ type: 'open', name, polygons });
-    frame();
+    open(name, polygons);
     return countOf(polygons.length, 'polygon');
   });
+
+function open(name: string, polygons: readonly Polygon[]): void {
+  selectedRing.value = null;
+  history.dispatch({ type: 'open', name, polygons });
+  frame();
+}
 
 /** Null for anything but GeoJSON. */
 function polygonsOfGeoJSON(bytes: Uint8Array): Polygon[] | null {
@@ -126,6 +131,5 @@ export const kPolygonExamples: readonly PolygonExample[] = [
 ];
 
 export function openPolygonExample(example: PolygonExample): void {
-  history.dispatch({ type: 'open', name: example.title, polygons: example.polygons() });
-  frame();
+  open(example.title, example.polygons());
 }
