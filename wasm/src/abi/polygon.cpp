@@ -1,6 +1,7 @@
 // sf_triangulate_polygons: polygons one by one or all at once, in the plane or flattened into it.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 
 #include "abi/host_work.h"
@@ -14,6 +15,9 @@ namespace {
 
 /// A triangulator that has held no more than this many vertices is kept for the next call.
 constexpr uint32_t kMostKept = 1u << 16;
+
+/// Bytes a vertex that the triangulation of a large polygon takes, at least.
+constexpr size_t kLeastPerVertex = 160;
 
 struct Settings {
   uint32_t dimension;
@@ -228,6 +232,14 @@ sf::Outcome check(const uint32_t* ringStarts, uint32_t ringCount, const uint32_t
   return {};
 }
 
+/// Has the memory grow by `bytes` at once, if so many are allowed, and not list by list: hosts collect
+/// their garbage when it grows, which takes longer than a large polygon.
+void growOnce(double bytes, double maxBytes) {
+  if (bytes > maxBytes || bytes >= 0x1p31) return;
+  void* volatile block = std::malloc(size_t(bytes));  // volatile, or else both calls are left out
+  std::free(block);
+}
+
 std::unique_ptr<sf::PolygonTriangulator>& keptTriangulator() {
   static std::unique_ptr<sf::PolygonTriangulator> kept;
   return kept;
@@ -254,6 +266,9 @@ extern "C" SfStatus sf_triangulate_polygons(const double* positions, const uint3
     options.verify = settings[5] == 1;
     options.trace = settings[6] == 1;
     sf::Work work = sf::hostWork(settings[7]);
+    const bool isLarge = n + pointCount > kMostKept;
+    if (isLarge && polygonCount == 1)
+      growOnce(double(kLeastPerVertex) * double(n + pointCount), settings[7]);
     auto& triangulator = keptTriangulator();
     if (!triangulator) triangulator = std::make_unique<sf::PolygonTriangulator>();
     Call call({dimension, options}, {positions, dimension * n}, {ringStarts, size_t(ringCount) + 1},
@@ -261,7 +276,7 @@ extern "C" SfStatus sf_triangulate_polygons(const double* positions, const uint3
               *triangulator, work);
     outcome = call.run();
     if (outcome.ok()) *result = call.pack();
-    if (n + pointCount > kMostKept) triangulator.reset();
+    if (isLarge) triangulator.reset();
   }
   sf::tellWhere(outcome, where);
   return SfStatus(outcome.status);
