@@ -1,12 +1,71 @@
-// What stands in the dialogs: the gallery, and what keys and gestures do in either mode.
-import { useState } from 'preact/hooks';
+// The dialogs: the gallery, and what keys and gestures do in either mode.
+import type { ComponentChildren } from 'preact';
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { boundsOf, cross, dot, normalize, subtract, type Point } from '../shapes/vec.ts';
 import { openExample } from '../state/files.ts';
 import { kGallery, type Example } from '../state/gallery.ts';
 import { mode, type Mode } from '../state/store.ts';
-import { openDialog } from './dialogs.tsx';
+import { openDialog, type DialogId } from './dialogs.tsx';
+import { Icon } from './icons.tsx';
+import '../styles/dialogs.css';
 
-export function Gallery() {
+export function Sheets() {
+  return (
+    <>
+      <Dialog id="gallery" title="Gallery">
+        <Gallery />
+      </Dialog>
+      <Dialog id="help" title="Keys and gestures">
+        <Help />
+      </Dialog>
+    </>
+  );
+}
+
+interface DialogProps {
+  readonly id: DialogId;
+  readonly title: string;
+  readonly children: ComponentChildren;
+}
+
+function Dialog({ id, title, children }: DialogProps) {
+  const ref = useRef<HTMLDialogElement>(null);
+  const isOpen = openDialog.value === id;
+  useLayoutEffect(() => {
+    if (isOpen) ref.current?.showModal();
+    else ref.current?.close();
+  }, [isOpen]);
+  const close = () => {
+    if (openDialog.peek() === id) openDialog.value = null;
+  };
+  return (
+    <dialog
+      ref={ref}
+      class={`dialog ${id}`}
+      aria-labelledby={`${id}-title`}
+      onClose={() => {
+        // The event comes late: by then the dialog may have been opened again.
+        if (ref.current?.open === false) close();
+      }}
+      onClick={(event) => {
+        // On the backdrop, which counts as the dialog itself.
+        if (event.target === event.currentTarget) close();
+      }}
+    >
+      <div class="dialog-body">
+        <header>
+          <h2 id={`${id}-title`}>{title}</h2>
+          <button type="button" class="icon-button" aria-label="Close" onClick={close}>
+            <Icon name="close" />
+          </button>
+        </header>
+        {isOpen && children}
+      </div>
+    </dialog>
+  );
+}
+
+function Gallery() {
   return (
     <ul class="cards">
       {kGallery.map((example) => (
@@ -175,7 +234,7 @@ const kHelp: Record<Mode, { readonly about: string; readonly groups: readonly Gr
   },
 };
 
-export function Help() {
+function Help() {
   const { about, groups } = kHelp[mode.value];
   return (
     <>
