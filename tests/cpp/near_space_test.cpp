@@ -44,7 +44,7 @@ Cost costOf(const LoopSet& loops, const std::vector<PolygonChart::Triangle>& sur
       if (shared != 2) continue;
       const double angle = angleBetween(normal(surface[i]), normal(surface[j]));
       sum += w.dihedral * angle;
-      allowance += w.dihedral * (angle < 2.4 ? 0.002 : 0.35);
+      allowance += w.dihedral * (angle < 2.6 ? 0.011 : 0.3);
     }
   }
   return {sum, allowance};

@@ -21,7 +21,7 @@ constexpr double kKeptPerOctave = 40;
 /// Corners beyond which fewer are kept, so that the number kept grows with n log n.
 constexpr double kManyCorners = 1000;
 /// Segments that are split for each one that is kept.
-constexpr double kSplitPerKept = 1.3;
+constexpr double kSplitPerKept = 1.15;
 /// Of segments up to this length all apexes are tried.
 constexpr uint32_t kTryAll = 8;
 /// Of longer ones those whose bound is above the least one by at most so much: of what was the mean
@@ -82,9 +82,10 @@ inline Float4 leastOfLanes(Float4 a, Float4 b, Float4 c, Float4 d) {
                  __builtin_shufflevector(ab, cd, 2, 3, 6, 7));
 }
 
-/// The angle between unit vectors is about root(u) (c0 + c1 u + ... + c4 u^4), where u is 1 less
-/// their product: fitted to within .0012 rad up to 2.4 rad, beyond which it is too small by up to .3.
-constexpr float kAngle[5] = {1.4226669f, 0.0392549f, 0.2252792f, -0.1818772f, 0.0662233f};
+/// The angle between unit vectors is about root(u) (c0 + c1 u + c2 u^2 + c3 u^3), where u is 1 less
+/// their product: fitted to within .011 rad up to 2.6 rad, beyond which it is too small by up to .28.
+/// Another term makes the surfaces found no better.
+constexpr float kAngle[4] = {1.3535858f, 0.4321578f, -0.3861121f, 0.1696036f};
 /// A little more than 1, so that roots are of positive numbers.
 constexpr float kOne = 1.000002f;
 
@@ -96,7 +97,7 @@ PolygonChart::PolygonChart(const LoopSet& loops, const TriangleWeights& weights,
       perimeterWeight_(float(weights.perimeter)),
       work_(work),
       memory_(work) {
-  for (int i = 0; i < 5; ++i) angle_[i] = float(weights.dihedral) * kAngle[i];
+  for (int i = 0; i < 4; ++i) angle_[i] = float(weights.dihedral) * kAngle[i];
 }
 
 double PolygonChart::bytesFor(uint32_t n) {
@@ -112,8 +113,7 @@ inline PolygonChart::Splits PolygonChart::noSplits() {
 inline Float4 PolygonChart::angles(Float4 ax, Float4 ay, Float4 az, Float4 bx, Float4 by,
                                    Float4 bz) const {
   const Float4 u = kOne - ax * bx - ay * by - az * bz;
-  return squareRoot(u) *
-         (angle_[0] + u * (angle_[1] + u * (angle_[2] + u * (angle_[3] + u * angle_[4]))));
+  return squareRoot(u) * (angle_[0] + u * (angle_[1] + u * (angle_[2] + u * angle_[3])));
 }
 
 /// The cost of a segment's splits as seen from a triangle across it.

@@ -93,7 +93,7 @@ class PolygonChart {
   void weighRoot();
 
   const LoopSet& loops_;
-  float areaWeight_, perimeterWeight_, angle_[5];
+  float areaWeight_, perimeterWeight_, angle_[4];
   Work& work_;
   Charge memory_;
   uint64_t charged_ = 0;
