@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "loops/polygon_solver.h"
 #include "loops/weight.h"
@@ -20,6 +21,24 @@ std::vector<uint32_t> allOf(const LoopSet& loops) {
   std::iota(vertices.begin(), vertices.end(), 0u);
   return vertices;
 }
+
+TriangleWeights area() {
+  TriangleWeights w;
+  w.area = 1;
+  return w;
+}
+
+/// Random loops, and the polygon over all their vertices in order.
+struct Solved {
+  LoopSet loops;
+  TripleWeights weights;
+  PlainPolygon polygon;
+  explicit Solved(LoopSet given, const TriangleWeights& w = area())
+      : loops(std::move(given)), weights(loops, w), polygon(loops, weights) {
+    polygon.compute(allOf(loops));
+  }
+  Solved(const Solved&) = delete;
+};
 
 double sumOf(const std::vector<uint32_t>& triples, const TripleWeights& weights) {
   double sum = 0;
@@ -47,13 +66,10 @@ TEST_CASE("plain polygon: its best surface is the optimum over all triples") {
   Random random(81);
   MESSAGE("seed 81");
   for (int i = 0; i < 20; ++i) {
-    const LoopSet loops = loopSet(randomLoops({4 + random.below(30)}, 1, random));
-    TriangleWeights w;
-    w.area = 1;
+    TriangleWeights w = area();
     w.perimeter = i % 2;
-    const TripleWeights weights(loops, w);
-    PlainPolygon polygon(loops, weights);
-    polygon.compute(allOf(loops));
+    const Solved solved(loopSet(randomLoops({4 + random.below(30)}, 1, random)), w);
+    const auto& [loops, weights, polygon] = solved;
     Work work;
     PolygonSurface optimum;
     REQUIRE(solvePolygon(loops, w, Objective::Sum, work, optimum));
@@ -68,13 +84,9 @@ TEST_CASE("plain polygon: its best surface is the optimum over all triples") {
 TEST_CASE("plain polygon: every segment has its optimum, on either side") {
   Random random(82);
   MESSAGE("seed 82");
-  const LoopSet loops = loopSet(randomLoops({9}, 1, random));
-  TriangleWeights w;
-  w.area = 1;
-  const TripleWeights weights(loops, w);
-  PlainPolygon polygon(loops, weights);
+  const Solved solved(loopSet(randomLoops({9}, 1, random)));
+  const auto& [loops, weights, polygon] = solved;
   const std::vector<uint32_t> vertices = allOf(loops);
-  polygon.compute(vertices);
   for (uint32_t first = 0; first < 9; ++first)
     for (uint32_t steps = 1; steps < 9; ++steps)
       CHECK(polygon.cost(first, (first + steps) % 9) ==
@@ -85,12 +97,9 @@ TEST_CASE(
     "plain polygon: near triangles are those of surfaces within the limit, the cheapest ones") {
   Random random(83);
   MESSAGE("seed 83");
-  const LoopSet loops = loopSet(randomLoops({14}, 1, random));
-  TriangleWeights w;
-  w.area = 1;
-  const TripleWeights weights(loops, w);
-  PlainPolygon polygon(loops, weights);
-  polygon.compute(allOf(loops));
+  const Solved solved(loopSet(randomLoops({14}, 1, random)));
+  const TripleWeights& weights = solved.weights;
+  const PlainPolygon& polygon = solved.polygon;
   const auto through = [&](const uint32_t* t) {
     return polygon.cost(t[0], t[1]) + polygon.cost(t[1], t[2]) + polygon.cost(t[2], t[0]) +
            weights(t[0], t[1], t[2]);
@@ -123,9 +132,7 @@ TEST_CASE(
   Random random(84);
   MESSAGE("seed 84");
   const LoopSet loops = loopSet(randomLoops({6, 5}, 2, random));
-  TriangleWeights w;
-  w.area = 1;
-  const TripleWeights weights(loops, w);
+  const TripleWeights weights(loops, area());
   // Round the first loop, across, round the second and back.
   const std::vector<uint32_t> vertices{0, 1, 2, 3, 4, 5, 0, 6, 7, 8, 9, 10, 6};
   PlainPolygon polygon(loops, weights);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/sort.h"
 #include "loops/weight.h"
 
 namespace sf {
@@ -156,9 +157,7 @@ void NeckSearch::append(const Neck& neck, std::vector<uint32_t>& triples) const 
   for (uint32_t loop = 0; loop < 2; ++loop) {
     uint32_t at[3];
     for (int c = 0; c < 3; ++c) at[c] = (loop == 0 ? neck.a : neck.b)[c] - loops_.first(loop);
-    if (at[0] > at[1]) std::swap(at[0], at[1]);
-    if (at[1] > at[2]) std::swap(at[1], at[2]);
-    if (at[0] > at[1]) std::swap(at[0], at[1]);
+    sf::sort(at, at + 3);
     for (int c = 0; c < 3; ++c) discs_[loop].trace(at[c], at[(c + 1) % 3], triples);
   }
 }

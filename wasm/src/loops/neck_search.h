@@ -15,10 +15,12 @@
 
 namespace sf {
 
-/// Appends the triangles of the least costly surfaces of that kind, some tens of them. In any order,
-/// repeated. Of each loop only some hundreds of triangles are tried, those that promise most. False
-/// when the work ended. O(n^3) and O(n^3) bytes, in bytesForNecks.
-///   loops  two
+/// Appends the triangles of the least costly surfaces of that kind, some tens of them: three vertices
+/// each, in any order, repeated. Of each loop only some hundreds of openings are tried, those that
+/// promise most. False when the work ended. O(n^3) and some ten thousand rings; takes memory that the
+/// caller has charged, see bytesForNecks.
+///   loops    two, in any units
+///   weights  of their triples
 bool neckTriples(const LoopSet& loops, const TripleWeights& weights, Work& work,
                  std::vector<uint32_t>& triples);
 
