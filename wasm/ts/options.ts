@@ -64,7 +64,7 @@ export interface Limits {
  */
 export function checkNames(options: unknown, names: Readonly<Record<string, true>>, path = ''): void {
   if (typeof options !== 'object' || options === null) {
-    throw new SoapfilmError('bad-option', `The options must be an object`);
+    throw new SoapfilmError('bad-option', `\`${path.slice(0, -1) || 'options'}\` must be an object`);
   }
   const unknown = Object.keys(options).find((name) => !Object.hasOwn(names, name));
   if (unknown === undefined) return;
