@@ -4,6 +4,7 @@
 
 #include "loops/exact_solver.h"
 #include "loops/relaxed_bound.h"
+#include "support/domains.h"
 #include "support/generators.h"
 
 using namespace sf;
@@ -27,19 +28,6 @@ struct Fixture {
     cost = set.weight;
   }
 };
-
-/// Whether v lies on a segment of the domain, not at an end of it: no triangle outside has its apex there.
-bool isInside(const LoopSet& loops, const Domains& domains, Shape shape, uint32_t v) {
-  for (uint32_t i = 0; i < domains.segmentCount(shape); ++i) {
-    const Segment s = domains.segment(shape, i);
-    uint32_t at = s.start;
-    do {
-      at = s.reversed ? loops.previous(at) : loops.next(at);
-      if (at == v && at != s.end && at != s.start) return !s.isVertex();
-    } while (at != s.end && at != s.start);
-  }
-  return false;
-}
 
 }  // namespace
 
@@ -69,36 +57,13 @@ TEST_CASE("two-loop bound: the same numbers as the bound over hashed domains, fo
     REQUIRE(dense.compute());
     CHECK((dense.rootBound() == hashed.rootBound() ||
            dense.rootBound() == doctest::Approx(hashed.rootBound()).epsilon(1e-12)));
-    // Down random splits from the root.
-    for (int walk = 0; walk < 60; ++walk) {
-      std::vector<uint32_t> shape = domains.root(root);
-      for (int depth = 0; depth < 12; ++depth) {
-        const uint32_t m = domains.segmentCount(shape);
-        const uint32_t edge =
-            f.set.edgeBetween(domains.spanStart(shape, m - 1), domains.spanEnd(shape, m - 1));
-        if (edge == kNone) break;
-        if (depth > 0) {
-          for (uint32_t s = f.set.edgeSlots[edge]; s < f.set.edgeSlots[edge + 1]; ++s) {
-            const double expected = hashed.value(shape, s), got = dense.value(shape, s);
-            // The hashed bound does not hold domains that no split of finite cost leads to.
-            if (expected == kInfinity || isInside(f.loops, domains, shape, f.set.slotApex[s]))
-              continue;
-            CHECK(got == doctest::Approx(expected).epsilon(1e-12));
-            ++compared;
-          }
-        }
-        std::vector<std::vector<uint32_t>> parts;
-        for (uint32_t s = f.set.edgeSlots[edge]; s < f.set.edgeSlots[edge + 1]; ++s)
-          domains.forEachSplit(shape, f.set.slotApex[s], [&](const Split& split) {
-            for (uint32_t p = 0; p < split.partCount; ++p)
-              if (split.part[p].kind == PartKind::Domain) parts.push_back(split.part[p].shape);
-            return true;
-          });
-        if (parts.empty()) break;
-        shape = parts[random.below(uint32_t(parts.size()))];
-        domains.makeCanonical(shape);
-      }
-    }
+    walkDomains(pass, root, random, [&](Shape shape, uint32_t slot) {
+      const double expected = hashed.value(shape, slot);
+      // The hashed bound does not hold domains that no split of finite cost leads to.
+      if (expected == kInfinity) return;
+      CHECK(dense.value(shape, slot) == doctest::Approx(expected).epsilon(1e-12));
+      ++compared;
+    });
   }
   CHECK(compared > 5000);
 }

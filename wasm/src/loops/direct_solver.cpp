@@ -1,10 +1,18 @@
 #include "loops/direct_solver.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "loops/focused_bound.h"
 #include "loops/relaxed_bound.h"
 #include "loops/two_loop_bound.h"
 
 namespace sf {
 namespace {
+
+/// Limits of cost to look below, one after the other.
+constexpr int kLimits = 4;
 
 /// The loop edge with the fewest triangles, by its first vertex: the fewest splits at the root.
 /// kNone if some loop edge has no triangle at all, so that no surface can reach it.
@@ -15,6 +23,25 @@ uint32_t chooseRoot(const LoopSet& loops, const CandidateSet& set) {
     if (set.degree(set.loopEdges[v]) < set.degree(set.loopEdges[root])) root = v;
   }
   return root;
+}
+
+/// Where the exact solver begins, or that there is no surface.
+bool findRoot(const Task& task, uint32_t& root, Optimum& optimum) {
+  optimum = {};
+  root = chooseRoot(task.loops, task.set);
+  if (root != kNone) return true;
+  optimum.reached = true;
+  optimum.lowerBound = kInfinity;
+  return false;
+}
+
+bool solveExactly(const Pass& pass, LowerBound& bound, uint32_t root, double& cost,
+                  SplitOrder& order, SolverCounts& counts) {
+  ExactSolver solver(pass, bound, root);
+  const bool solved = solver.solve(cost, order);
+  counts.domains += solver.domainCount();
+  counts.minimalSets += solver.minimalSetCount();
+  return solved;
 }
 
 void solvePolygonTable(const Pass& pass, uint32_t root, Optimum& optimum, SolverCounts& counts) {
@@ -44,50 +71,77 @@ bool isDense(const LoopSet& loops, const CandidateSet& set) {
 
 bool solveDirectly(const Task& task, uint64_t maxSplits, double incumbent, Optimum& optimum,
                    SolverCounts& counts) {
-  optimum = {};
   const LoopSet& loops = task.loops;
   const CandidateSet& set = task.set;
-  Work& work = task.work;
-  const uint32_t root = chooseRoot(loops, set);
-  if (root == kNone) {
-    optimum.reached = true;
-    optimum.lowerBound = kInfinity;
-    return work.going();
-  }
+  uint32_t root;
+  if (!findRoot(task, root, optimum)) return task.work.going();
   SegmentTable segments;
-  if (!segments.compute(loops, set, task.triangleCost, task.measure, work)) return false;
-  const Pass pass{loops, set, task.triangleCost, task.measure, segments, work};
+  if (!segments.compute(loops, set, task.triangleCost, task.measure, task.work)) return false;
+  const Pass pass{loops, set, task.triangleCost, task.measure, segments, task.work};
   if (loops.loopCount() == 1) {
     solvePolygonTable(pass, root, optimum, counts);
     optimum.lowerBound = optimum.cost;
     return true;
   }
-  const auto solveExactly = [&](LowerBound& bound) {
+  const auto solve = [&](LowerBound& bound) {
     optimum.lowerBound = bound.rootBound();
     task.tell(incumbent, bound.rootBound());
-    ExactSolver solver(pass, bound, root);
-    const bool solved = solver.solve(optimum.cost, optimum.order);
-    counts.domains += solver.domainCount();
-    counts.minimalSets += solver.minimalSetCount();
-    optimum.reached = solved;
-    if (solved)
+    optimum.reached = solveExactly(pass, bound, root, optimum.cost, optimum.order, counts);
+    if (optimum.reached)
       optimum.lowerBound = optimum.cost;
     else
       optimum.cost = kInfinity;
-    return solved;
+    return optimum.reached;
   };
   if (isLarge(loops, set) && isDense(loops, set)) {
     TwoLoopBound bound(pass, root);
     const bool bounded = bound.compute();
     counts.domains += bound.domainCount();
-    return bounded && solveExactly(bound);
+    return bounded && solve(bound);
   }
   RelaxedBound bound(pass);
   const std::vector<uint32_t> rootShape = Domains(loops).root(root);
   const bool bounded = bound.compute(rootShape, maxSplits);
   counts.domains += bound.domainCount();
-  if (!bounded) return work.going();
-  return solveExactly(bound);
+  if (!bounded) return task.work.going();
+  return solve(bound);
+}
+
+bool solveWithin(const Task& task, FanEstimate& estimate, const std::vector<double>& leastPair,
+                 double most, uint64_t maxSplits, Optimum& optimum, SolverCounts& counts) {
+  uint32_t root;
+  if (!findRoot(task, root, optimum)) return task.work.going();
+  SegmentTable segments;
+  if (!segments.compute(task.loops, task.set, task.triangleCost, task.measure, task.work))
+    return false;
+  const Pass pass{task.loops, task.set, task.triangleCost, task.measure, segments, task.work};
+  FocusedBound bound(pass, leastPair, estimate);
+  const std::vector<uint32_t> rootShape = Domains(task.loops).root(root);
+  const double least = estimate.lowerBound();
+  bool good = true;
+  for (int i = 1; i <= kLimits && good && !optimum.reached; ++i) {
+    const double limit = i == kLimits ? most : least + (most - least) * i / kLimits;
+    // Sums in another order differ in the last digits.
+    good =
+        bound.compute(rootShape, limit + 1e-9 * std::fabs(limit) + estimate.rounding(), maxSplits);
+    if (!good) break;
+    const double proven = bound.rootBound() - estimate.rounding();
+    optimum.lowerBound = std::max(optimum.lowerBound, std::min(proven, most));
+    if (proven <= limit) {
+      double cost;
+      SplitOrder order;
+      good = solveExactly(pass, bound, root, cost, order, counts);
+      if (!good) break;
+      if (cost < optimum.cost) optimum.cost = cost, optimum.order = std::move(order);
+      // All surfaces that cost no more than the limit were there to be found.
+      optimum.reached = optimum.cost <= limit;
+      optimum.lowerBound = std::max(optimum.lowerBound, std::min(optimum.cost, limit));
+    }
+    optimum.reached = optimum.reached || i == kLimits;
+    task.tell(std::min(most, optimum.cost), optimum.lowerBound);
+  }
+  counts.domains += bound.domainCount();
+  return task.work.going();
 }
 
 }  // namespace sf

@@ -7,6 +7,7 @@
 
 #include "loops/candidate_set.h"
 #include "loops/exact_solver.h"
+#include "loops/fan_estimate.h"
 #include "loops/weight.h"
 
 namespace sf {
@@ -26,10 +27,10 @@ struct Task {
   }
 };
 
-/// The optimum of a task, if it was reached.
+/// The optimum of a task, if it was reached; a surface, perhaps, if not.
 struct Optimum {
   bool reached = false;
-  double cost = kInfinity;         // infinity: there is no surface
+  double cost = kInfinity;         // infinity: there is no surface, or none that is cheap enough
   double lowerBound = -kInfinity;  // proven, also if the optimum was not reached
   SplitOrder order;
 };
@@ -45,6 +46,14 @@ constexpr uint64_t kUnlimited = ~uint64_t(0);
 ///   incumbent  cost of a surface that is known, only to be told of
 bool solveDirectly(const Task& task, uint64_t maxSplits, double incumbent, Optimum& optimum,
                    SolverCounts& counts);
+
+/// Solves a task of sums over several loops by those of its domains that a surface of at most `most`
+/// (finite) can have, looking for cheaper ones first, unless that takes more than `maxSplits` splits. Reached, without
+/// a surface: none costs `most` or less. False when the work ended.
+///   estimate  of the same set and measure, at costs none of which exceeds the task's
+///   leastPair  see lower_bound.h
+bool solveWithin(const Task& task, FanEstimate& estimate, const std::vector<double>& leastPair,
+                 double most, uint64_t maxSplits, Optimum& optimum, SolverCounts& counts);
 
 /// Whether the candidates are many for the surface, so that whatever looks at each of them is slow.
 bool isLarge(const LoopSet& loops, const CandidateSet& set);

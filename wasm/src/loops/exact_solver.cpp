@@ -6,7 +6,6 @@
 #include "base/sort.h"
 
 namespace sf {
-namespace {}  // namespace
 
 void traceSegment(const Pass& pass, ClosedSegment segment, uint32_t accessSlot, SplitOrder& order) {
   struct Open {
@@ -83,11 +82,6 @@ bool ExactSolver::solveOnce(double& cost) {
   return true;
 }
 
-uint32_t ExactSolver::accessEdge(Shape shape) const {
-  const uint32_t m = domains_.segmentCount(shape);
-  return pass_.set.edgeBetween(domains_.spanStart(shape, m - 1), domains_.spanEnd(shape, m - 1));
-}
-
 double ExactSolver::emptyPairCost(const SplitPart& part, uint32_t t,
                                   ArrayView<const uint32_t> triangles) const {
   const uint32_t other = triangles[1 + part.firstInherited] - 1;
@@ -138,7 +132,9 @@ bool ExactSolver::open(uint32_t domain) {
   const CandidateSet& set = pass_.set;
   const Shape shape = shapeOf(domain);
   const ArrayView<const uint32_t> triangles = trianglesOf(domain);
-  const uint32_t edge = accessEdge(shape);
+  const uint32_t edge = accessEdge(set, domains_, shape);
+  const double limit =
+      bound_.limit(shape, triangles[0] ? set.slotAt(triangles[0] - 1, edge) : kNone);
   frames_.push_back({domain, 0, 0, kInfinity, {}, {}});
   std::vector<Candidate>& candidates = frames_.back().candidates;
   for (uint32_t slot = set.edgeSlots[edge]; slot < set.edgeSlots[edge + 1]; ++slot) {
@@ -146,7 +142,7 @@ bool ExactSolver::open(uint32_t domain) {
     uint32_t ordinal = 0;
     domains_.forEachSplit(shape, set.slotApex[slot], [&](const Split& split) {
       const double b = bound(split, slot, triangles);
-      if (b < kInfinity) candidates.push_back({b, slot, ordinal});
+      if (b < kInfinity && b <= limit) candidates.push_back({b, slot, ordinal});
       ++ordinal;
       return pass_.work.tick(300);
     });

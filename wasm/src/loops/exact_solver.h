@@ -106,7 +106,6 @@ class ExactSolver {
     const uint32_t m = segmentsOf(domain);
     return table_.key(domain).slice(holeWords_ + 2 * size_t(m), m);
   }
-  uint32_t accessEdge(Shape shape) const;
   double bound(const Split& split, uint32_t slot, ArrayView<const uint32_t> triangles);
   double emptyPairCost(const SplitPart& part, uint32_t t,
                        ArrayView<const uint32_t> triangles) const;

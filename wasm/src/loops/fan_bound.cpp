@@ -8,23 +8,11 @@ namespace {
 constexpr uint32_t kPatienceOfAscent = 12;  // steps without progress before they become shorter
 constexpr double kShortestStride = 1e-7;    // of the bound, at which the ascent ends
 
-/// At most how far rounding has lifted a bound. Large terms cancel in a cheap walk only if some of
-/// them are negative: those, and the bound itself, say how large partial sums can be.
-///   terms, vertices  how many are added up
-double liftByRounding(double bound, double terms, double vertices, double price, double angleWeight,
-                      const std::vector<double>& third, const std::vector<double>& multiplier) {
-  double most = std::max(std::fabs(price), 0.5 * kPi * angleWeight);
-  for (size_t corner = 0; corner < multiplier.size(); ++corner)
-    most = std::max(most, -(third[corner / 3] + multiplier[corner]));
-  return std::numeric_limits<double>::epsilon() * (2 * terms + vertices) *
-         (std::fabs(bound) + terms * most);
-}
-
 }  // namespace
 
 FanBound::FanBound(const LoopSet& loops, const CandidateSet& set,
                    const std::vector<double>& triangleCost, Measure measure, Work& work)
-    : set_(set),
+    : links_(loops, set),
       measure_(measure),
       work_(work),
       memory_(work),
@@ -39,50 +27,11 @@ FanBound::FanBound(const LoopSet& loops, const CandidateSet& set,
   bestMultiplier_ = gradient_ = direction_ = multiplier_;
   used_.assign(3 * c, 0);
 
-  // Edges at each vertex, at both of their ends.
-  std::vector<uint32_t> first(n + 1, 0);
-  for (const uint32_t v : set.edgeVertices) ++first[v + 1];
-  for (uint32_t v = 0; v < n; ++v) first[v + 1] += first[v];
-  std::vector<uint32_t> incident(set.edgeVertices.size()), cursor(first.begin(), first.end() - 1);
-  for (uint32_t e = 0; e < set.edgeCount(); ++e)
-    for (int end = 0; end < 2; ++end) incident[cursor[set.edgeVertices[2 * size_t(e) + end]]++] = e;
-
-  std::vector<uint32_t> spokeOfSlot(set.slotTriangle.size());
-  spokes_.reserve(6 * c);
   size_t walks = 0, cheapest = 0;
-  for (uint32_t v = 0; v < n; ++v) {
-    Vertex vertex{};
-    vertex.firstSpoke = spokes_.size();
-    vertex.firstEdge = uint32_t(edges_.size());
-    vertex.edgeCount = first[v + 1] - first[v];
-    vertex.startEdge = vertex.endEdge = kNone;
-    for (uint32_t i = first[v]; i < first[v + 1]; ++i) {
-      const uint32_t e = incident[i];
-      if (e == set.loopEdges[loops.previous(v)]) vertex.startEdge = i - first[v];
-      if (e == set.loopEdges[v]) vertex.endEdge = i - first[v];
-      edges_.push_back({vertex.spokeCount, set.degree(e), set.isLoopEdge[e] != 0});
-      for (uint32_t s = set.edgeSlots[e]; s < set.edgeSlots[e + 1]; ++s) {
-        spokeOfSlot[s] = vertex.spokeCount++;
-        const uint32_t t = set.slotTriangle[s];
-        spokes_.push_back({3 * t + set.corner(t, v), 0});
-        theta_.push_back(set.slotTheta[s]);
-      }
-    }
-    for (uint32_t i = first[v]; i < first[v + 1]; ++i) {
-      const uint32_t e = incident[i];
-      const uint32_t u = set.edgeVertices[2 * size_t(e)] == v ? set.edgeVertices[2 * size_t(e) + 1]
-                                                              : set.edgeVertices[2 * size_t(e)];
-      for (uint32_t s = set.edgeSlots[e]; s < set.edgeSlots[e + 1]; ++s)
-        spokes_[vertex.firstSpoke + spokeOfSlot[s]].partner =
-            spokeOfSlot[set.slotOpposite(set.slotTriangle[s], u)];
-    }
-    // A fan passes each edge at most once.
-    vertex.longest = vertex.edgeCount ? vertex.edgeCount - 1 : 0;
-    vertex.firstWalk = walks;
-    vertex.firstCheapest = cheapest;
-    walks += size_t(vertex.longest) * vertex.spokeCount;
-    cheapest += vertex.longest;
-    vertices_.push_back(vertex);
+  for (const Vertex& v : links_.vertices) {
+    labels_.push_back({walks, cheapest});
+    walks += size_t(v.longest) * v.spokeCount;
+    cheapest += v.longest;
   }
   walks_.resize(walks);
   cheapest_.resize(cheapest);
@@ -100,29 +49,25 @@ double FanBound::bytesFor(const LoopSet& loops, const CandidateSet& set) {
   return bytes;
 }
 
-/// out[s] = the least over the edge's spokes of arriving there and turning over into s. Turning back
-/// into the same triangle costs a fold and only loosens the bound.
-void FanBound::leave(const Vertex& v, const double* arrive, double* out) {
-  for (uint32_t i = 0; i < v.edgeCount; ++i) {
-    const Edge& edge = edges_[v.firstEdge + i];
-    const uint32_t first = edge.firstSpoke, count = edge.spokeCount;
-    // A fan ends where it comes to a loop edge.
-    if (edge.onLoop || std::all_of(arrive + first, arrive + first + count,
-                                   [](double w) { return w == kInfinity; })) {
-      std::fill(out + first, out + first + count, kInfinity);
-      continue;
-    }
-    const double* theta = &theta_[v.firstSpoke + first];
-    transform_.apply(theta, arrive + first, count, theta, count, out + first);
-  }
+/// At most how far rounding has lifted a bound. Large terms cancel in a cheap walk only if some of
+/// them are negative: those, and the bound itself, say how large partial sums can be.
+double FanBound::rounding(double bound) const {
+  const double terms = 3 * triangleTotal_;
+  double most = std::max(std::fabs(price_), 0.5 * kPi * measure_.dihedralWeight());
+  for (size_t corner = 0; corner < multiplier_.size(); ++corner)
+    most = std::max(most, -(third_[corner / 3] + multiplier_[corner]));
+  return std::numeric_limits<double>::epsilon() * (2 * terms + double(labels_.size())) *
+         (std::fabs(bound) + terms * most);
 }
 
 /// The spoke from which the walk turned over into `left`.
 uint32_t FanBound::arrivedFrom(const Vertex& v, const double* arrive, uint32_t left) const {
   uint32_t i = 0;
-  while (edges_[v.firstEdge + i].firstSpoke + edges_[v.firstEdge + i].spokeCount <= left) ++i;
-  const Edge& edge = edges_[v.firstEdge + i];
-  const double* theta = &theta_[v.firstSpoke];
+  while (links_.edges[v.firstEdge + i].firstSpoke + links_.edges[v.firstEdge + i].spokeCount <=
+         left)
+    ++i;
+  const FanLinks::Edge& edge = links_.edges[v.firstEdge + i];
+  const double* theta = &links_.theta[v.firstSpoke];
   uint32_t from = edge.firstSpoke;
   double best = kInfinity;
   for (uint32_t s = edge.firstSpoke; s < edge.firstSpoke + edge.spokeCount; ++s) {
@@ -134,24 +79,25 @@ uint32_t FanBound::arrivedFrom(const Vertex& v, const double* arrive, uint32_t l
 
 /// Labels of the cheapest walks of each length at a vertex: in walks_ to each spoke, in cheapest_ to
 /// the loop edge where fans end. Prices of triangles are left out.
-void FanBound::labelWalks(const Vertex& v) {
-  double* cheapest = &cheapest_[v.firstCheapest];
+void FanBound::labelWalks(uint32_t vertex) {
+  const Vertex& v = links_.vertices[vertex];
+  double* cheapest = &cheapest_[labels_[vertex].firstCheapest];
   std::fill(cheapest, cheapest + v.longest, kInfinity);
   if (v.startEdge == kNone || v.endEdge == kNone) return;
   const uint32_t n = v.spokeCount;
-  const Spoke* spokes = &spokes_[v.firstSpoke];
-  const Edge& start = edges_[v.firstEdge + v.startEdge];
-  const Edge& end = edges_[v.firstEdge + v.endEdge];
+  const FanLinks::Spoke* spokes = &links_.spokes[v.firstSpoke];
+  const FanLinks::Edge& start = links_.edges[v.firstEdge + v.startEdge];
+  const FanLinks::Edge& end = links_.edges[v.firstEdge + v.endEdge];
   leave_.assign(n, kInfinity);
   std::fill_n(leave_.begin() + start.firstSpoke, start.spokeCount, 0.0);
   for (uint32_t i = 0; i < v.longest; ++i) {
-    double* arrive = &walks_[v.firstWalk + size_t(i) * n];
+    double* arrive = &walks_[labels_[vertex].firstWalk + size_t(i) * n];
     for (uint32_t s = 0; s < n; ++s)
       arrive[spokes[s].partner] =
           leave_[s] + third_[spokes[s].corner / 3] + multiplier_[spokes[s].corner];
     cheapest[i] =
         *std::min_element(arrive + end.firstSpoke, arrive + end.firstSpoke + end.spokeCount);
-    if (i + 1 < v.longest) leave(v, arrive, leave_.data());
+    if (i + 1 < v.longest) links_.leave(v, arrive, transform_, leave_.data());
     if (!work_.tick(20 + 4 * n)) return;
   }
 }
@@ -164,9 +110,9 @@ double FanBound::shareOut() {
   const auto choose = [&](double price, double& cost) {
     double total = 0;
     cost = -price * wanted;
-    for (size_t i = 0; i < vertices_.size(); ++i) {
-      const Vertex& v = vertices_[i];
-      const double* cheapest = &cheapest_[v.firstCheapest];
+    for (size_t i = 0; i < labels_.size(); ++i) {
+      const Vertex& v = links_.vertices[i];
+      const double* cheapest = &cheapest_[labels_[i].firstCheapest];
       double best = kInfinity;
       for (uint32_t l = 1; l <= v.longest; ++l) {
         const double w = cheapest[l - 1] + price * l;
@@ -200,11 +146,12 @@ double FanBound::shareOut() {
   return best;
 }
 
-void FanBound::traceWalk(const Vertex& v, uint32_t length) {
+void FanBound::traceWalk(uint32_t vertex, uint32_t length) {
+  const Vertex& v = links_.vertices[vertex];
   const uint32_t n = v.spokeCount;
-  const Spoke* spokes = &spokes_[v.firstSpoke];
-  const Edge& end = edges_[v.firstEdge + v.endEdge];
-  const double* walks = &walks_[v.firstWalk];
+  const FanLinks::Spoke* spokes = &links_.spokes[v.firstSpoke];
+  const FanLinks::Edge& end = links_.edges[v.firstEdge + v.endEdge];
+  const double* walks = &walks_[labels_[vertex].firstWalk];
   const double* last = walks + size_t(length - 1) * n;
   uint32_t s = uint32_t(
       std::min_element(last + end.firstSpoke, last + end.firstSpoke + end.spokeCount) - last);
@@ -217,15 +164,14 @@ void FanBound::traceWalk(const Vertex& v, uint32_t length) {
 }
 
 double FanBound::evaluate() {
-  for (const Vertex& v : vertices_) labelWalks(v);
+  for (uint32_t v = 0; v < labels_.size(); ++v) labelWalks(v);
   if (!work_.going()) return best_;
   const double bound = shareOut();
   for (const uint32_t corner : usedCorners_) used_[corner] = 0;
   usedCorners_.clear();
   if (bound == kInfinity) return bound;
-  for (size_t i = 0; i < vertices_.size(); ++i) traceWalk(vertices_[i], length_[i]);
-  return bound - liftByRounding(bound, 3 * triangleTotal_, double(vertices_.size()), price_,
-                                measure_.dihedralWeight(), third_, multiplier_);
+  for (uint32_t v = 0; v < labels_.size(); ++v) traceWalk(v, length_[v]);
+  return bound - rounding(bound);
 }
 
 /// How the corners of each triangle disagree.
@@ -263,6 +209,7 @@ bool FanBound::ascend(uint32_t steps, double target) {
       best_ = bound;
       bestMultiplier_ = multiplier_;
       bestPrice_ = price_;
+      bestRounding_ = rounding(bound);
     }
     if (idle_ > kPatienceOfAscent) {
       idle_ = 0;
@@ -294,55 +241,15 @@ bool FanBound::ascend(uint32_t steps, double target) {
   return true;
 }
 
-bool FanBound::excess(std::vector<double>& excess) {
-  multiplier_ = bestMultiplier_;
-  price_ = bestPrice_;
-  excess.assign(set_.size(), 0);
-  std::vector<double> to, from, entering, turned, through(set_.size());
-  for (const Vertex& v : vertices_) {
-    const uint32_t n = v.spokeCount;
-    const Spoke* spokes = &spokes_[v.firstSpoke];
-    labelWalks(v);
-    if (!work_.going()) return false;
-    // to: the cheapest walk, price included, that arrives at each spoke.
-    to.assign(n, kInfinity);
-    double best = kInfinity;
-    for (uint32_t l = 1; l <= v.longest && v.endEdge != kNone && v.startEdge != kNone; ++l) {
-      const double* arrive = &walks_[v.firstWalk + size_t(l - 1) * n];
-      for (uint32_t s = 0; s < n; ++s) to[s] = std::min(to[s], arrive[s] + price_ * l);
-      best = std::min(best, cheapest_[v.firstCheapest + l - 1] + price_ * l);
-    }
-    if (best == kInfinity) {
-      std::fill(excess.begin(), excess.end(), kInfinity);
-      return work_.going();
-    }
-    // from: the cheapest that goes on from there to the end; a walk backwards.
-    const Edge& end = edges_[v.firstEdge + v.endEdge];
-    from.assign(n, kInfinity);
-    entering.resize(n);
-    turned.resize(n);
-    std::fill_n(from.begin() + end.firstSpoke, end.spokeCount, 0.0);
-    for (uint32_t l = 1; l < v.longest; ++l) {
-      for (uint32_t s = 0; s < n; ++s)
-        entering[s] = from[spokes[s].partner] + third_[spokes[s].corner / 3] +
-                      multiplier_[spokes[s].corner] + price_;
-      if (!work_.tick(20 + 6 * n)) return false;
-      leave(v, entering.data(), turned.data());
-      bool progress = false;
-      for (uint32_t s = 0; s < n; ++s)
-        if (turned[s] < from[s]) from[s] = turned[s], progress = true;
-      if (!progress) break;
-    }
-    for (uint32_t s = 0; s < n; ++s) through[spokes[s].corner / 3] = kInfinity;
-    for (uint32_t s = 0; s < n; ++s) {
-      double& at = through[spokes[s].corner / 3];
-      at = std::min(at, to[s] + from[s]);
-    }
-    for (uint32_t s = 0; s < n; ++s)
-      if (s < spokes[s].partner)
-        excess[spokes[s].corner / 3] += std::max(0.0, through[spokes[s].corner / 3] - best);
-  }
-  return true;
+FanCosts FanBound::costs() const {
+  FanCosts costs;
+  costs.corner.resize(bestMultiplier_.size());
+  for (size_t corner = 0; corner < costs.corner.size(); ++corner)
+    costs.corner[corner] = third_[corner / 3] + bestMultiplier_[corner] + bestPrice_;
+  costs.price = bestPrice_;
+  costs.lowerBound = best_;
+  costs.rounding = bestRounding_;
+  return costs;
 }
 
 }  // namespace sf

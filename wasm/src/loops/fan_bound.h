@@ -1,8 +1,7 @@
-// A lower bound on all surfaces from what happens around single vertices, and from it the triangles
-// that no optimal surface can use.
+// A lower bound on all surfaces from what happens around single vertices.
 // Source: none in Zou, Ju, Carr 2013. Lagrangian decomposition (Guignard, Kim 1987) with subgradient
-// ascent and reduced-cost fixing, for a property that the paper's surfaces have: the triangles at
-// a vertex form one fan, from the one loop edge there to the other.
+// ascent, for a property that the paper's surfaces have: the triangles at a vertex form one fan, from
+// the one loop edge there to the other.
 //
 // Half of each dihedral angle belongs to either end of its edge, a third of each triangle's weight to
 // each corner. Then the cost of a surface is the sum of the costs of its n fans, and the cheapest
@@ -19,6 +18,8 @@
 #include "base/charge.h"
 #include "loops/angular_transform.h"
 #include "loops/candidate_set.h"
+#include "loops/fan_estimate.h"
+#include "loops/fan_links.h"
 #include "loops/weight.h"
 
 namespace sf {
@@ -37,9 +38,9 @@ class FanBound {
   /// No surface costs less. Infinity if some vertex has no fan: there is no surface.
   double lowerBound() const { return best_; }
 
-  /// excess [c]: a surface that uses triangle t costs at least lowerBound() + excess[t]. Infinity for
-  /// triangles that no fan can use. False when the work ended.
-  bool excess(std::vector<double>& excess);
+  /// What fans cost where the bound is best, to see by it which triangles and domains are dear.
+  FanCosts costs() const;
+  const FanLinks& links() const { return links_; }
 
   /// About how many nanoseconds a step of ascent takes.
   double timeOfStep() const { return kTimeOfLabel * double(walks_.size()); }
@@ -48,36 +49,23 @@ class FanBound {
   static double bytesFor(const LoopSet& loops, const CandidateSet& set);
 
  private:
-  /// A triangle at one of the two edges that it has at a vertex. A walk in the link of the vertex
-  /// *arrives* at it from the triangle's other edge, or *leaves* into the triangle.
-  struct Spoke {
-    uint32_t corner;   // 3 t + which of t's vertices this is
-    uint32_t partner;  // the spoke of the same triangle at its other edge here
-  };
-  struct Edge {
-    uint32_t firstSpoke, spokeCount;  // within the vertex
-    bool onLoop;
-  };
-  struct Vertex {
-    size_t firstSpoke;
-    uint32_t spokeCount;
-    uint32_t firstEdge, edgeCount;
-    uint32_t startEdge, endEdge;  // within the vertex; kNone: no candidate at that loop edge
-    uint32_t longest;             // most triangles that a fan can have here
+  /// Where the labels at a vertex begin.
+  struct Labels {
     size_t firstWalk, firstCheapest;
   };
+  using Vertex = FanLinks::Vertex;
 
   static constexpr double kTimeOfLabel = 12;
 
   double evaluate();
-  void labelWalks(const Vertex& v);
-  void leave(const Vertex& v, const double* arrive, double* out);
+  double rounding(double bound) const;
+  void labelWalks(uint32_t vertex);
   uint32_t arrivedFrom(const Vertex& v, const double* arrive, uint32_t left) const;
   double shareOut();
-  void traceWalk(const Vertex& v, uint32_t length);
+  void traceWalk(uint32_t vertex, uint32_t length);
   void gradient();
 
-  const CandidateSet& set_;
+  FanLinks links_;
   Measure measure_;
   Work& work_;
   Charge memory_;
@@ -86,17 +74,14 @@ class FanBound {
   std::vector<double> multiplier_;  // [3c]
   std::vector<double> bestMultiplier_;
   double price_ = 0, bestPrice_ = 0;  // of a triangle at a corner: what one more would save
-  std::vector<Spoke> spokes_;
-  std::vector<double> theta_;  // of the spokes
-  std::vector<Edge> edges_;
-  std::vector<Vertex> vertices_;
-  std::vector<double> walks_;     // labels of arrivals, by vertex, length less 1, and spoke
+  std::vector<Labels> labels_;        // by vertex
+  std::vector<double> walks_;         // labels of arrivals, by vertex, length less 1, and spoke
   std::vector<double> cheapest_;  // by vertex and length less 1: the cheapest walk of that length
   std::vector<uint32_t> length_;  // [n] of the walk chosen at each vertex
   std::vector<uint32_t> used_;    // [3c] how often the walks use each corner
   std::vector<uint32_t> usedCorners_;
   std::vector<double> gradient_, direction_;  // [3c] of this step, and of the last one
-  double best_ = -kInfinity;
+  double best_ = -kInfinity, bestRounding_ = 0;
   double stride_ = 0;  // how far above the best bound the next step aims
   uint32_t idle_ = 0;
   std::vector<double> leave_;  // scratch

@@ -33,4 +33,20 @@ std::vector<double> leastPairs(const CandidateSet& set, Measure measure) {
   return least;
 }
 
+double leafCost(const Pass& pass, const Domains& domains, const std::vector<double>& leastPair,
+                const SplitPart& part, uint32_t t) {
+  if (part.kind != PartKind::EmptyPair && part.kind != PartKind::Segment) return 0;
+  const uint32_t slot = pass.set.slotOpposite(t, part.apexOpposite);
+  if (part.kind == PartKind::EmptyPair) return leastPair[slot];
+  const Segment s = domains.segment(part.shape, 0);
+  const ClosedSegment closed =
+      pass.closedSegment(pass.set.edgeOpposite(t, part.apexOpposite), s.reversed, s.start, s.end);
+  return pass.segments.value(slot, closed.side);
+}
+
+uint32_t accessEdge(const CandidateSet& set, const Domains& domains, Shape shape) {
+  const uint32_t m = domains.segmentCount(shape);
+  return set.edgeBetween(domains.spanStart(shape, m - 1), domains.spanEnd(shape, m - 1));
+}
+
 }  // namespace sf

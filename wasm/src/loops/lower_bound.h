@@ -5,6 +5,7 @@
 
 #include "loops/candidate_set.h"
 #include "loops/domain.h"
+#include "loops/pass.h"
 #include "loops/weight.h"
 
 namespace sf {
@@ -18,9 +19,19 @@ class LowerBound {
   virtual double value(Shape shape, uint32_t slot) = 0;
   /// The same for the root. Infinity: there is no surface.
   virtual double rootBound() const = 0;
+  /// What the same domain may cost at most within a surface that is of interest; kNone as slot: the root.
+  virtual double limit(Shape, uint32_t) { return kInfinity; }
 };
 
 /// For each slot the least bi-triangle weight that its triangle can have with another at that edge.
 std::vector<double> leastPairs(const CandidateSet& set, Measure measure);
+
+/// What a relaxation charges for a part of a split by triangle t that ends the recursion, with `leastPair`
+/// where two triangles are all that is left; 0 for domains.
+double leafCost(const Pass& pass, const Domains& domains, const std::vector<double>& leastPair,
+                const SplitPart& part, uint32_t t);
+
+/// The access edge of a domain.
+uint32_t accessEdge(const CandidateSet& set, const Domains& domains, Shape shape);
 
 }  // namespace sf

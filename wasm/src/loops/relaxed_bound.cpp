@@ -14,16 +14,11 @@ RelaxedBound::RelaxedBound(const Pass& pass)
 
 RelaxedBound::~RelaxedBound() { pass_.work.release(entriesCharged_); }
 
-uint32_t RelaxedBound::accessEdge(Shape shape) const {
-  const uint32_t m = domains_.segmentCount(shape);
-  return pass_.set.edgeBetween(domains_.spanStart(shape, m - 1), domains_.spanEnd(shape, m - 1));
-}
-
 bool RelaxedBound::open(uint32_t domain) {
   const CandidateSet& set = pass_.set;
   // Keys stay where they are while the table grows.
   const Shape shape = table_.key(domain);
-  const uint32_t edge = accessEdge(shape);
+  const uint32_t edge = accessEdge(set, domains_, shape);
   frames_.push_back({domain, entries_.size(), entries_.size()});
   for (uint32_t slot = set.edgeSlots[edge]; slot < set.edgeSlots[edge + 1]; ++slot) {
     if (pass_.triangleCost[set.slotTriangle[slot]] == kInfinity) continue;
@@ -41,18 +36,9 @@ bool RelaxedBound::addEntry(const Split& split, uint32_t slot) {
   if (!pass_.work.tick(100) || splitsLeft_ == 0) return false;
   --splitsLeft_;
   Entry entry{slot, {kNone, kNone}, {0, 0}, pass_.triangleCost[t]};
-  for (uint32_t i = 0; i < split.partCount; ++i) {
-    const SplitPart& part = split.part[i];
-    const uint32_t partSlot = set.slotOpposite(t, part.apexOpposite);
-    if (part.kind == PartKind::EmptyPair) {
-      entry.cost = pass_.measure.join(entry.cost, leastPair_[partSlot]);
-    } else if (part.kind == PartKind::Segment) {
-      const Segment s = domains_.segment(part.shape, 0);
-      const ClosedSegment closed =
-          pass_.closedSegment(set.edgeOpposite(t, part.apexOpposite), s.reversed, s.start, s.end);
-      entry.cost = pass_.measure.join(entry.cost, pass_.segments.value(partSlot, closed.side));
-    }
-  }
+  for (uint32_t i = 0; i < split.partCount; ++i)
+    entry.cost =
+        pass_.measure.join(entry.cost, leafCost(pass_, domains_, leastPair_, split.part[i], t));
   // A leaf that cannot be filled spares the domain beside it.
   if (entry.cost == kInfinity) return true;
   for (uint32_t i = 0; i < split.partCount; ++i) {
@@ -77,7 +63,7 @@ bool RelaxedBound::addEntry(const Split& split, uint32_t slot) {
 
 bool RelaxedBound::close(const Frame& frame) {
   const CandidateSet& set = pass_.set;
-  const uint32_t edge = accessEdge(table_.key(frame.domain));
+  const uint32_t edge = accessEdge(set, domains_, table_.key(frame.domain));
   const uint32_t begin = set.edgeSlots[edge], degree = set.degree(edge);
   auto* values = arena_.allocate<double>(degree);
   if (!values || !pass_.work.tick(100 + 20 * degree)) return false;
@@ -139,7 +125,7 @@ bool RelaxedBound::compute(ArrayView<const uint32_t> root, uint64_t maxSplits) {
 double RelaxedBound::value(Shape shape, uint32_t slot) {
   const uint32_t domain = table_.find(shape);
   if (domain == kNone) return kInfinity;
-  return values_[domain][slot - pass_.set.edgeSlots[accessEdge(shape)]];
+  return values_[domain][slot - pass_.set.edgeSlots[accessEdge(pass_.set, domains_, shape)]];
 }
 
 }  // namespace sf

@@ -43,7 +43,6 @@ class RelaxedBound final : public LowerBound {
     uint32_t domain;
     size_t firstEntry, cursor;
   };
-  uint32_t accessEdge(Shape shape) const;
   bool open(uint32_t domain);
   bool addEntry(const Split& split, uint32_t slot);
   bool close(const Frame& frame);

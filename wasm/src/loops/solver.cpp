@@ -7,12 +7,13 @@
 #include "base/sort.h"
 #include "loops/fan_bound.h"
 #include "loops/fan_filter.h"
+#include "loops/lower_bound.h"
 
 namespace sf {
 namespace {
 
 /// Splits of domains, times the vertices, to try first: fans cost in proportion to the vertices too.
-constexpr uint64_t kSplitsOfFew = 10000;
+constexpr uint64_t kSplitsOfFew = 30000;
 constexpr uint64_t kSplitsOfMany = 1000;
 /// Of that number from round to round.
 constexpr uint64_t kGrowth = 6;
@@ -45,8 +46,8 @@ class PassSolver {
   bool solveSubset(const std::vector<uint32_t>& kept, uint64_t maxSplits, bool& reached);
   bool solveByFans(uint64_t maxSplits);
   bool solveWorst(uint64_t maxSplits);
-  bool solveWhatIsLeft(FanBound& fans, const std::vector<double>& excess, uint64_t maxSplits,
-                       bool& solved);
+  bool solveAll(uint64_t maxSplits, bool& solved);
+  bool solveBetter(const FanBound& fans, uint64_t maxSplits, bool& solved);
   void raise(double lowerBound) {
     lowerBound_ = std::max(lowerBound_, std::min(lowerBound, best_.cost()));
     task_.tell(best_.cost(), lowerBound_);
@@ -57,7 +58,7 @@ class PassSolver {
   Surface& surface_;  // where domains are counted
   Incumbent best_;
   std::unique_ptr<SurfaceSearch> search_;
-  double share_ = 1.25;  // candidates to look for a surface in, as a multiple of its triangles
+  std::vector<double> leastPair_;
   double lowerBound_ = -kInfinity;
 };
 
@@ -86,48 +87,55 @@ bool PassSolver::solveSubset(const std::vector<uint32_t>& kept, uint64_t maxSpli
   return good;
 }
 
-/// Solves over the triangles of least excess: first over few, for a better surface, and then over all
-/// that a surface better than the best one can have, unless those are too many for `maxSplits`.
-bool PassSolver::solveWhatIsLeft(FanBound& fans, const std::vector<double>& excess,
-                                 uint64_t maxSplits, bool& solved) {
-  const double wanted = double(task_.loops.vertexCount()) + 2.0 * task_.loops.loopCount() - 4;
-  std::vector<uint32_t> byExcess;
-  for (uint32_t t = 0; t < excess.size(); ++t)
-    if (excess[t] < kInfinity) byExcess.push_back(t);
-  sf::sort(byExcess.begin(), byExcess.end(), [&](uint32_t a, uint32_t b) {
-    return excess[a] < excess[b] || (excess[a] == excess[b] && a < b);
-  });
-  const auto left = [&] {
-    const double most = withRounding(best_.cost()) - fans.lowerBound();
-    const auto end = std::partition_point(byExcess.begin(), byExcess.end(),
-                                          [&](uint32_t t) { return !(excess[t] > most); });
-    return size_t(end - byExcess.begin());
-  };
-  solved = false;
-  for (;;) {
-    const size_t tried = std::min(left(), size_t(share_ * wanted) + 1);
-    std::vector<uint32_t> kept(byExcess.begin(), byExcess.begin() + std::ptrdiff_t(tried));
-    sf::sort(kept.begin(), kept.end());
-    bool reached;
-    if (!solveSubset(kept, maxSplits, reached)) return false;
-    raise(fans.lowerBound());
-    if (!reached) break;
-    // Whatever uses a triangle that was left out costs more than the best surface.
-    solved = left() <= tried;
-    if (solved) break;
-    share_ *= 1.5;
-  }
-  share_ = std::max(1.25, share_ / 1.5);
+/// Solves by all domains, unless those are too many for `maxSplits`.
+bool PassSolver::solveAll(uint64_t maxSplits, bool& solved) {
+  Optimum optimum;
+  const bool good = solveByDomains(task_, maxSplits, optimum);
+  raise(optimum.lowerBound);
+  solved = good && optimum.reached;
+  if (!solved) return good;
+  best_.offer(std::move(optimum.order), optimum.cost);
+  raise(optimum.cost);
   return true;
 }
 
-/// Solves a task that is too large for all its domains: bounds it by its fans, finds surfaces by cuts
-/// and among the triangles that look best by that bound, and then solves it over the triangles that
-/// the bound and the best surface leave. Both get better from round to round, and the rounds longer.
+/// Solves by the domains that a surface better than the best one can have, as far as fans tell, unless
+/// those are too many for `maxSplits`.
+bool PassSolver::solveBetter(const FanBound& fans, uint64_t maxSplits, bool& solved) {
+  const uint64_t before = task_.work.used();
+  Optimum found;
+  bool good;
+  {
+    FanEstimate estimate(task_.loops, fans.links(), leastPair_, task_.measure, fans.costs(),
+                         task_.work);
+    good = estimate.compute();
+    if (good) {
+      std::vector<double> excess, cost(task_.triangleCost);
+      estimate.excess(excess);
+      const double most = withRounding(best_.cost()) - fans.lowerBound();
+      for (size_t t = 0; t < cost.size(); ++t)
+        if (excess[t] > most) cost[t] = kInfinity;
+      const Task within{task_.loops, task_.set, cost, task_.measure, task_.work, task_.isObjective};
+      SolverCounts counts;
+      good = solveWithin(within, estimate, leastPair_, best_.cost(), maxSplits, found, counts);
+      surface_.domains += counts.domains;
+      surface_.minimalSets += counts.minimalSets;
+    }
+  }
+  task_.work.release(task_.work.used() - before);
+  solved = found.reached;
+  if (found.cost < kInfinity) best_.offer(std::move(found.order), found.cost);
+  raise(solved ? best_.cost() : found.lowerBound);
+  return good;
+}
+
+/// Solves a task that is too large for all its domains: bounds it by its fans, finds surfaces by cuts,
+/// and then solves it by the domains that both leave. All three get better from round to round, and the
+/// rounds longer.
 bool PassSolver::solveByFans(uint64_t maxSplits) {
   FanBound fans(task_.loops, task_.set, task_.triangleCost, task_.measure, task_.work);
   if (!search_ && !beginSearch()) return false;
-  std::vector<double> excess;
+  leastPair_ = leastPairs(task_.set, task_.measure);
   for (uint32_t round = 0; task_.work.going(); ++round) {
     task_.work.setFraction(1 - 1 / (1 + 0.3 * round));
     // Neither of the two may take much more time than the other: which one gets there is not known.
@@ -135,14 +143,12 @@ bool PassSolver::solveByFans(uint64_t maxSplits) {
     if (!fans.ascend(uint32_t(std::clamp(steps, 10.0, 300.0)), best_.cost())) return false;
     raise(fans.lowerBound());
     if (fans.lowerBound() == kInfinity) break;  // there is no surface
+    if (!search_->search(kTriesPerRound)) return false;
     bool solved;
-    if (!search_->search(kTriesPerRound) || !fans.excess(excess) ||
-        !solveWhatIsLeft(fans, excess, maxSplits, solved))
+    if (best_.cost() < kInfinity ? !solveBetter(fans, maxSplits, solved)
+                                 : !solveAll(maxSplits, solved))
       return false;
-    if (solved) {
-      raise(best_.cost());
-      return true;
-    }
+    if (solved) return true;
     maxSplits = maxSplits < kUnlimited / kGrowth ? kGrowth * maxSplits : kUnlimited;
   }
   return task_.work.going();
@@ -202,15 +208,9 @@ bool PassSolver::run(double from, double to) {
   work.phase(from, direct ? to : from + 0.2 * (to - from));
   if (!lookForFirst(areFew ? kFirstTriesOfFew : kFirstTries)) return false;
   if (direct || areFew || splits == kUnlimited) {
-    Optimum optimum;
-    const bool good = solveByDomains(task_, direct ? kUnlimited : splits, optimum);
-    raise(optimum.lowerBound);
-    if (!good) return false;
-    if (optimum.reached) {
-      best_.offer(std::move(optimum.order), optimum.cost);
-      raise(optimum.cost);
-      return true;
-    }
+    bool solved;
+    if (!solveAll(direct ? kUnlimited : splits, solved)) return false;
+    if (solved) return true;
   }
   work.phase(from + 0.2 * (to - from), to);
   return worst ? solveWorst(splits) : solveByFans(splits);
