@@ -41,13 +41,13 @@ int signOf(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 double max2(double a, double b) { return a > b ? a : b; }
 
 // Double-double arithmetic.
-Pair operator+(Pair a, Pair b) {
+__attribute__((noinline)) Pair operator+(Pair a, Pair b) {
   Pair s = twoSum(a.hi, b.hi), t = twoSum(a.lo, b.lo);
   s = fastTwoSum(s.hi, s.lo + t.hi);
   return fastTwoSum(s.hi, s.lo + t.lo);
 }
 Pair operator-(Pair a, Pair b) { return a + Pair{-b.hi, -b.lo}; }
-Pair operator*(Pair a, Pair b) {
+__attribute__((noinline)) Pair operator*(Pair a, Pair b) {
   Pair p = twoProduct(a.hi, b.hi);
   return fastTwoSum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
 }

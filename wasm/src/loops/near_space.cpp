@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/charge.h"
 #include "base/sort.h"
@@ -202,15 +203,19 @@ std::vector<Bridge> bridgesOf(const LoopSet& loops, ArrayView<const uint32_t> su
 bool BridgeSearch::run(ArrayView<const uint32_t> surface, std::vector<uint32_t>& triples) {
   for (const Bridge& bridge : surface.empty() ? shortBridges(loops_) : bridgesOf(loops_, surface))
     if (!attempt(bridge)) return false;
-  const auto use = [&] {
-    for (size_t q = 0; q < std::min(kTaken, trials_.size()); ++q)
-      triples.insert(triples.end(), trials_[q].triples.begin(), trials_[q].triples.end());
-  };
-  const auto byCost = [](const Trial& a, const Trial& b) { return a.cost < b.cost; };
-  std::stable_sort(trials_.begin(), trials_.end(), byCost);
-  use();
-  std::stable_partition(trials_.begin(), trials_.end(), [](const Trial& t) { return t.isValid; });
-  use();
+  std::vector<uint32_t> byCost(trials_.size());
+  std::iota(byCost.begin(), byCost.end(), 0u);
+  sf::sort(byCost.begin(), byCost.end(), [&](uint32_t a, uint32_t b) {
+    return trials_[a].cost < trials_[b].cost || (trials_[a].cost == trials_[b].cost && a < b);
+  });
+  // The cheapest of all, and the cheapest that are surfaces.
+  size_t all = 0, valid = 0;
+  for (const uint32_t q : byCost) {
+    const Trial& trial = trials_[q];
+    if (all++ < kTaken || (trial.isValid && valid < kTaken))
+      triples.insert(triples.end(), trial.triples.begin(), trial.triples.end());
+    valid += trial.isValid;
+  }
   return true;
 }
 

@@ -15,6 +15,8 @@ namespace {
 /// Splits of domains, times the vertices, to try first: fans cost in proportion to the vertices too.
 constexpr uint64_t kSplitsOfFew = 30000;
 constexpr uint64_t kSplitsOfMany = 1000;
+/// Candidates for each triangle of a surface over three loops that count as few.
+constexpr double kFewCandidates = 32;
 /// Of that number from round to round.
 constexpr uint64_t kGrowth = 6;
 /// Of a split in R, in nanoseconds.
@@ -201,7 +203,9 @@ bool PassSolver::run(double from, double to) {
   const bool direct = k == 1 || gap || dense || (worst && large && k > 2) || !work.fits(fanBytes) ||
                       fanBytes > 40 * CandidateSet::bytesFor(double(task_.set.size()));
   // Domains are few where loops and candidates are.
-  const bool areFew = (k == 2 || (k == 3 && !large)) && !worst;
+  const double triangles = double(loops.vertexCount()) + 2.0 * k - 4;
+  const bool areFew =
+      (k == 2 || (k == 3 && double(task_.set.size()) <= kFewCandidates * triangles)) && !worst;
   const uint64_t splits = options_.firstSplits
                               ? options_.firstSplits
                               : loops.vertexCount() * (areFew ? kSplitsOfFew : kSplitsOfMany);
