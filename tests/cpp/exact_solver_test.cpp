@@ -57,7 +57,7 @@ struct Solved {
 Solved solved(const Pass& pass, LowerBound& bound, uint32_t root, int lazyRounds) {
   Solved result;
   ExactSolver solver(pass, bound, root, lazyRounds);
-  REQUIRE(solver.solve(result.cost, result.order));
+  REQUIRE(solver.solve(kInfinity, result.cost, result.order));
   result.domains = solver.domainCount();
   result.minimalSets = solver.minimalSetCount();
   return result;
@@ -165,7 +165,7 @@ TEST_CASE("exact solver: what it charges it gives back, and it ends with the wor
     ExactSolver solver(pass, relaxed, 0, 0);
     double cost;
     SplitOrder order;
-    return solver.solve(cost, order);
+    return solver.solve(kInfinity, cost, order);
   };
   Work enough;
   CHECK(tryWith(enough));

@@ -35,7 +35,7 @@ Bounds bounds(const LoopSet& loops, const TriangleWeights& weights, Measure meas
       REQUIRE(bound.compute(Domains(loops).root(root), ~uint64_t(0)));
       ExactSolver solver(pass, bound, root);
       SplitOrder order;
-      REQUIRE(solver.solve(result.exact, order));
+      REQUIRE(solver.solve(kInfinity, result.exact, order));
       result.relaxed = bound.rootBound();
     }
     result.leftInUse = work.used() - before;

@@ -83,7 +83,7 @@ TEST_CASE("two-loop bound: memory is given back, and a small limit refused befor
     ExactSolver solver(pass, bound, 0);
     double cost;
     SplitOrder order;
-    REQUIRE(solver.solve(cost, order));
+    REQUIRE(solver.solve(kInfinity, cost, order));
     CHECK(bound.rootBound() <= cost * (1 + 1e-12));
     CHECK(order.size() == 17);
   }

@@ -171,7 +171,7 @@ bool bySegments(const sf::Pass& pass, uint32_t root, Optimum& optimum) {
 bool byBound(const sf::Pass& pass, sf::LowerBound& bound, uint32_t root, int lazyRounds,
              Optimum& optimum) {
   sf::ExactSolver solver(pass, bound, root, lazyRounds);
-  return solver.solve(optimum.cost, optimum.order);
+  return solver.solve(kInfinity, optimum.cost, optimum.order);
 }
 bool byRelaxedBoundOnly(const sf::Pass& pass, uint32_t root, int lazyRounds, Optimum& optimum) {
   sf::RelaxedBound bound(pass);

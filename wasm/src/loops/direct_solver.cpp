@@ -35,10 +35,10 @@ bool findRoot(const Task& task, uint32_t& root, Optimum& optimum) {
   return false;
 }
 
-bool solveExactly(const Pass& pass, LowerBound& bound, uint32_t root, double& cost,
+bool solveExactly(const Pass& pass, LowerBound& bound, uint32_t root, double most, double& cost,
                   SplitOrder& order, SolverCounts& counts) {
   ExactSolver solver(pass, bound, root);
-  const bool solved = solver.solve(cost, order);
+  const bool solved = solver.solve(most, cost, order);
   counts.domains += solver.domainCount();
   counts.minimalSets += solver.minimalSetCount();
   return solved;
@@ -86,7 +86,8 @@ bool solveDirectly(const Task& task, uint64_t maxSplits, double incumbent, Optim
   const auto solve = [&](LowerBound& bound) {
     optimum.lowerBound = bound.rootBound();
     task.tell(incumbent, bound.rootBound());
-    optimum.reached = solveExactly(pass, bound, root, optimum.cost, optimum.order, counts);
+    optimum.reached =
+        solveExactly(pass, bound, root, kInfinity, optimum.cost, optimum.order, counts);
     if (optimum.reached)
       optimum.lowerBound = optimum.cost;
     else
@@ -130,7 +131,7 @@ bool solveWithin(const Task& task, FanEstimate& estimate, const std::vector<doub
     if (proven <= limit) {
       double cost;
       SplitOrder order;
-      good = solveExactly(pass, bound, root, cost, order, counts);
+      good = solveExactly(pass, bound, root, limit, cost, order, counts);
       if (!good) break;
       if (cost < optimum.cost) optimum.cost = cost, optimum.order = std::move(order);
       // All surfaces that cost no more than the limit were there to be found.

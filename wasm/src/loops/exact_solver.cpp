@@ -1,11 +1,19 @@
 #include "loops/exact_solver.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/sort.h"
 
 namespace sf {
+namespace {
+
+/// The first limit above the root's bound, by that; doubled as many times before there is none.
+constexpr double kFirstRoom = 0.01;
+constexpr int kLimits = 8;
+
+}  // namespace
 
 void traceSegment(const Pass& pass, ClosedSegment segment, uint32_t accessSlot, SplitOrder& order) {
   struct Open {
@@ -40,10 +48,18 @@ ExactSolver::~ExactSolver() {
   for (const Frame& frame : frames_) pass_.work.release(frame.bytes);
 }
 
-bool ExactSolver::solve(double& cost, SplitOrder& order) {
+bool ExactSolver::solve(double most, double& cost, SplitOrder& order) {
+  const double least = bound_.rootBound();
+  int doublings = std::isfinite(least) && least != 0 ? 0 : kLimits;
   for (int round = 0;; ++round) {
     if (round == lazyRounds_) allCritical_ = true;
-    if (!solveOnce(cost)) return false;
+    // Critical edges only make surfaces dearer, so a limit that was too low stays too low.
+    for (;; ++doublings) {
+      const double room = std::ldexp(kFirstRoom * std::fabs(least), doublings);
+      const double limit = doublings < kLimits ? std::min(least + room, most) : most;
+      if (!solveBelow(limit, cost)) return false;
+      if (cost <= limit || limit == most) break;
+    }
     order.clear();
     if (cost == kInfinity) return true;
     trace(order);
@@ -52,7 +68,7 @@ bool ExactSolver::solve(double& cost, SplitOrder& order) {
   }
 }
 
-bool ExactSolver::solveOnce(double& cost) {
+bool ExactSolver::solveBelow(double most, double& cost) {
   table_.clear();
   arena_.clear();
   solutions_.clear();
@@ -62,20 +78,22 @@ bool ExactSolver::solveOnce(double& cost) {
   if (bound_.rootBound() == kInfinity) return true;
   std::vector<uint32_t> root = domains_.root(rootVertex_);
   root.push_back(0);
-  if (table_.insert(root) == kNone || !open(0)) return false;
+  if (table_.insert(root) == kNone || !open(0, most)) return false;
   while (!frames_.empty()) {
     Frame& frame = frames_.back();
-    if (frame.cursor == frame.candidates.size() ||
-        !pass_.measure.improves(frame.candidates[frame.cursor].bound, frame.cut)) {
+    const bool more = frame.cursor < frame.candidates.size();
+    const double next = more ? frame.candidates[frame.cursor].bound : kInfinity;
+    if (!more || next > frame.limit || !pass_.measure.improves(next, frame.cut)) {
       if (!close(frame)) return false;
       frames_.pop_back();
       continue;
     }
     uint32_t missing = kNone;
-    if (!take(frame, frame.candidates[frame.cursor], missing)) return false;
+    double asked = 0;
+    if (!take(frame, frame.candidates[frame.cursor], missing, asked)) return false;
     if (missing == kNone)
       ++frame.cursor;
-    else if (!open(missing))
+    else if (!open(missing, asked))
       return false;
   }
   for (const Solution& s : solutions_[0]) cost = std::min(cost, s.cost);
@@ -128,14 +146,14 @@ double ExactSolver::bound(const Split& split, uint32_t slot, ArrayView<const uin
   return cost;
 }
 
-bool ExactSolver::open(uint32_t domain) {
+bool ExactSolver::open(uint32_t domain, double asked) {
   const CandidateSet& set = pass_.set;
   const Shape shape = shapeOf(domain);
   const ArrayView<const uint32_t> triangles = trianglesOf(domain);
   const uint32_t edge = accessEdge(set, domains_, shape);
-  const double limit =
-      bound_.limit(shape, triangles[0] ? set.slotAt(triangles[0] - 1, edge) : kNone);
-  frames_.push_back({domain, 0, 0, kInfinity, {}, {}});
+  const double limit = std::min(
+      asked, bound_.limit(shape, triangles[0] ? set.slotAt(triangles[0] - 1, edge) : kNone));
+  frames_.push_back({domain, 0, 0, kInfinity, asked, limit, {}, {}});
   std::vector<Candidate>& candidates = frames_.back().candidates;
   for (uint32_t slot = set.edgeSlots[edge]; slot < set.edgeSlots[edge + 1]; ++slot) {
     if (set.slotTriangle[slot] + 1 == triangles[0]) continue;
@@ -170,7 +188,7 @@ uint32_t ExactSolver::insertPart(const Split& split, uint32_t i, uint32_t t,
   scratch_.insert(scratch_.end(), scratch2_.begin(), scratch2_.end());
   const uint32_t id = table_.insert(scratch_);
   if (solved_.size() < table_.size()) {
-    solved_.resize(table_.size(), 0);
+    solved_.resize(table_.size(), -kInfinity);
     solutions_.resize(table_.size());
   }
   return id;
@@ -200,12 +218,13 @@ bool ExactSolver::makeParts(const Frame& frame, const Candidate& candidate) {
       const SplitPart& part = split.part[i];
       OpenPart& out = parts_[i];
       const uint32_t edge = pass_.set.edgeOpposite(t, part.apexOpposite);
-      out.ref = {part.kind, kNone, 0};
+      out.ref = {part.kind, kNone, 0, nullptr};
       out.cost = 0;
       out.spanning.clear();
       if (part.kind == PartKind::Domain) {
         out.ref.a = insertPart(split, i, t, triangles);
         if (out.ref.a == kNone) return good = false;
+        out.bound = bound_.value(shapeOf(out.ref.a), pass_.set.slotOpposite(t, part.apexOpposite));
         criticalSpanningEdges(part.shape, out.spanning);
         continue;
       }
@@ -222,12 +241,17 @@ bool ExactSolver::makeParts(const Frame& frame, const Candidate& candidate) {
   return good && pass_.work.going();
 }
 
-bool ExactSolver::take(Frame& frame, const Candidate& candidate, uint32_t& missing) {
+bool ExactSolver::take(Frame& frame, const Candidate& candidate, uint32_t& missing, double& asked) {
   if (!makeParts(frame, candidate)) return false;
   for (uint32_t i = 0; i < partCount_; ++i) {
-    const PartRef& ref = parts_[i].ref;
-    if (ref.kind != PartKind::Domain || solved_[ref.a]) continue;
-    missing = ref.a;
+    const OpenPart& part = parts_[i];
+    if (part.ref.kind != PartKind::Domain) continue;
+    // What the rest of the split leaves; sums in another order differ in the last digits.
+    asked = frame.limit;
+    if (asked < kInfinity && !pass_.measure.isWorst())
+      asked += 1e-9 * std::fabs(asked) - (candidate.bound - part.bound);
+    if (solved_[part.ref.a] >= asked) continue;
+    missing = part.ref.a;
     return true;
   }
   combine(frame, candidate);
@@ -251,8 +275,8 @@ void ExactSolver::combine(Frame& frame, const Candidate& candidate) {
   criticalSpanningEdges(shape, spanning);
 
   // A part that is no domain counts as a domain with one solution, without weak edges.
-  const Solution none{
-      0, nullptr, 0, kNone, {{PartKind::EmptyEdge, 0, 0}, {PartKind::EmptyEdge, 0, 0}}};
+  constexpr PartRef kEmpty{PartKind::EmptyEdge, kNone, 0, nullptr};
+  const Solution none{0, nullptr, 0, kNone, {kEmpty, kEmpty}};
   ArrayView<const Solution> choices[2];
   Solution leaf[2] = {none, none};
   for (uint32_t i = 0; i < 2; ++i) {
@@ -263,7 +287,7 @@ void ExactSolver::combine(Frame& frame, const Candidate& candidate) {
     else
       leaf[i].cost = parts_[i].cost;
   }
-  if (partCount_ < 2) parts_[1] = {{PartKind::EmptyEdge, kNone, 0}, 0, {}};
+  if (partCount_ < 2) parts_[1] = {kEmpty, 0, 0, {}};
 
   std::vector<uint32_t> used[2], all;
   for (uint32_t i = 0; i < choices[0].size(); ++i) {
@@ -281,7 +305,8 @@ void ExactSolver::combine(Frame& frame, const Candidate& candidate) {
       const uint32_t chosen[2] = {i, j};
       for (int side = 0; side < 2; ++side) {
         draft.solution.part[side] = parts_[side].ref;
-        if (parts_[side].ref.kind == PartKind::Domain) draft.solution.part[side].b = chosen[side];
+        if (parts_[side].ref.kind == PartKind::Domain)
+          draft.solution.part[side].solution = &choices[side][chosen[side]];
       }
       unite(used[0], used[1], all);
       for (const uint32_t e : all)
@@ -322,24 +347,25 @@ bool ExactSolver::close(Frame& frame) {
   minimalSetCount_ += frame.drafts.size();
   pass_.work.release(frame.bytes);
   if (solved_.size() < table_.size()) {
-    solved_.resize(table_.size(), 0);
+    solved_.resize(table_.size(), -kInfinity);
     solutions_.resize(table_.size());
   }
   solutions_[frame.domain] = {solutions, frame.drafts.size()};
-  solved_[frame.domain] = 1;
+  // One without critical edges that is within the limit is the best of all, whatever the limit.
+  solved_[frame.domain] = frame.cut <= frame.limit ? kInfinity : frame.asked;
   return true;
 }
 
 void ExactSolver::trace(SplitOrder& order) const {
-  uint32_t best = 0;
-  for (uint32_t i = 1; i < solutions_[0].size(); ++i)
-    if (solutions_[0][i].cost < solutions_[0][best].cost) best = i;
+  const Solution* best = solutions_[0].begin();
+  for (const Solution& s : solutions_[0])
+    if (s.cost < best->cost) best = &s;
   // First in, first out, over domains and segments alike.
-  std::vector<PartRef> queue{{PartKind::Domain, 0, best}};
+  std::vector<PartRef> queue{{PartKind::Domain, 0, 0, best}};
   for (size_t i = 0; i < queue.size(); ++i) {
     const PartRef ref = queue[i];
     if (ref.kind == PartKind::Domain) {
-      const Solution& s = solutions_[ref.a][ref.b];
+      const Solution& s = *ref.solution;
       order.push_back(s.triangle);
       queue.insert(queue.end(), s.part, s.part + 2);
       continue;
@@ -355,7 +381,7 @@ void ExactSolver::trace(SplitOrder& order) const {
     ClosedSegment part[2];
     pass_.segments.parts(segment, slot, part);
     for (const ClosedSegment& p : part)
-      queue.push_back({PartKind::Segment, pass_.set.slotAt(t, p.edge), p.side});
+      queue.push_back({PartKind::Segment, pass_.set.slotAt(t, p.edge), p.side, nullptr});
   }
 }
 

@@ -2,7 +2,9 @@
 // Source: Zou, Ju, Carr 2013, sec. 3.2 and fig. 6: domains with the triangles across all their
 // spanning edges, weak edge sets, minimal sets, traceback.
 // Differs: top-down on an explicit stack, splits in the order of their lower bound (lower_bound.h)
-// and cut as soon as that cannot improve on a surface without critical edges. Weak edges are
+// and cut as soon as that cannot improve on a surface without critical edges, or as what is outside of
+// the domain leaves too little of a limit on the whole. The limit rises from the bound until a surface
+// is found within it, so that parts which the optimum does not have are hardly looked at. Weak edges are
 // tracked lazily: first none; where the optimum then closes an edge twice, that edge becomes
 // critical, and the pass is repeated. This is exact, since an optimum of the relaxed problem that
 // is a manifold is optimal, and ends, since every round adds an edge.
@@ -38,17 +40,20 @@ class ExactSolver {
               int lazyRounds = kLazyRounds);
   ~ExactSolver();
 
-  /// The least cost, infinity if there is no surface; false when the work ended.
-  bool solve(double& cost, SplitOrder& order);
+  /// The least cost, infinity if there is no surface, or none that costs `most` or less; it may be above
+  /// `most` as well, and then need not be the least. False when the work ended.
+  bool solve(double most, double& cost, SplitOrder& order);
 
   uint64_t domainCount() const { return domainCount_; }
   uint64_t minimalSetCount() const { return minimalSetCount_; }
 
  private:
+  struct Solution;
   /// A part of a split with its optimal triangulation, as far as it is not empty.
   struct PartRef {
     PartKind kind;
-    uint32_t a, b;  // Domain: number, solution. Segment: slot of the access triangle, side.
+    uint32_t a, b;             // Domain: number. Segment: slot of the access triangle, side.
+    const Solution* solution;  // Domain: which, once chosen
   };
   /// The best triangulation of a domain with one weak edge set: an element of W(D, E).
   struct Solution {
@@ -74,6 +79,8 @@ class ExactSolver {
     size_t cursor;
     uint64_t bytes;  // charged for the candidates
     double cut;      // cost of the solution that uses no critical edge
+    double asked;    // up to which cost solutions are wanted
+    double limit;    // the same, or less where the bound knows that more is of no use
     std::vector<Candidate> candidates;
     std::vector<Draft> drafts;
   };
@@ -81,13 +88,14 @@ class ExactSolver {
   struct OpenPart {
     PartRef ref;
     double cost;                     // of parts other than domains
+    double bound;                    // of domains
     std::vector<uint32_t> spanning;  // critical ones among its spanning edges
   };
 
-  bool solveOnce(double& cost);
-  bool open(uint32_t domain);
+  bool solveBelow(double most, double& cost);
+  bool open(uint32_t domain, double asked);
   bool close(Frame& frame);
-  bool take(Frame& frame, const Candidate& candidate, uint32_t& missing);
+  bool take(Frame& frame, const Candidate& candidate, uint32_t& missing, double& asked);
   bool makeParts(const Frame& frame, const Candidate& candidate);
   void combine(Frame& frame, const Candidate& candidate);
   void addDraft(Frame& frame, Draft&& draft);
@@ -124,7 +132,7 @@ class ExactSolver {
   DomainTable table_;
   Arena arena_;
   std::vector<ArrayView<const Solution>> solutions_;  // by domain
-  std::vector<uint8_t> solved_;                       // by domain
+  std::vector<double> solved_;                        // by domain: up to which cost
   std::vector<uint32_t> critical_;                    // increasing
   bool allCritical_ = false;
   std::vector<Frame> frames_;

@@ -264,6 +264,9 @@ double TwoLoopBound::value(Shape shape, uint32_t slot) {
     b.reversed = !b.reversed;
   }
   const uint32_t place = placeOf(a.start);
+  // What case I asks is kept.
+  if (b.whole && placeOf(a.end) > place && set.slotApex[slot] == a.end)
+    return start(place, placeOf(a.end), b.start, b.reversed);
   const Context* context = &contextOf(a, b);
   const uint32_t length = b.whole ? sizeB_ : lengthTo(*context, b.end);
   const size_t at = context->offset[size_t(place) * (sizeB_ + 1) + length];
