@@ -40,7 +40,7 @@ constexpr double kExactScale = 0x1p150;
 int signOf(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 double max2(double a, double b) { return a > b ? a : b; }
 
-// Double-double arithmetic.
+// Double-double arithmetic. Out of line: of the second stages, which would be many times as long.
 __attribute__((noinline)) Pair operator+(Pair a, Pair b) {
   Pair s = twoSum(a.hi, b.hi), t = twoSum(a.lo, b.lo);
   s = fastTwoSum(s.hi, s.lo + t.hi);

@@ -57,8 +57,12 @@ void solvePolygonTable(const Pass& pass, uint32_t root, Optimum& optimum, Solver
 
 }  // namespace
 
+double candidatesPerTriangle(const LoopSet& loops, const CandidateSet& set) {
+  return double(set.size()) / (double(loops.vertexCount()) + 2.0 * loops.loopCount() - 4);
+}
+
 bool isLarge(const LoopSet& loops, const CandidateSet& set) {
-  return double(set.size()) > 24 * (double(loops.vertexCount()) + 2.0 * loops.loopCount() - 4);
+  return candidatesPerTriangle(loops, set) > 24;
 }
 
 bool isDense(const LoopSet& loops, const CandidateSet& set) {
@@ -119,20 +123,17 @@ bool solveWithin(const Task& task, FanEstimate& estimate, const std::vector<doub
   FocusedBound bound(pass, leastPair, estimate);
   const std::vector<uint32_t> rootShape = Domains(task.loops).root(root);
   const double least = estimate.lowerBound();
-  bool good = true;
-  for (int i = 1; i <= kLimits && good && !optimum.reached; ++i) {
+  for (int i = 1; i <= kLimits && !optimum.reached; ++i) {
     const double limit = i == kLimits ? most : least + (most - least) * i / kLimits;
     // Sums in another order differ in the last digits.
-    good =
-        bound.compute(rootShape, limit + 1e-9 * std::fabs(limit) + estimate.rounding(), maxSplits);
-    if (!good) break;
+    const double withRounding = limit + 1e-9 * std::fabs(limit) + estimate.rounding();
+    if (!bound.compute(rootShape, withRounding, maxSplits)) break;
     const double proven = bound.rootBound() - estimate.rounding();
     optimum.lowerBound = std::max(optimum.lowerBound, std::min(proven, most));
     if (proven <= limit) {
       double cost;
       SplitOrder order;
-      good = solveExactly(pass, bound, root, limit, cost, order, counts);
-      if (!good) break;
+      if (!solveExactly(pass, bound, root, limit, cost, order, counts)) break;
       if (cost < optimum.cost) optimum.cost = cost, optimum.order = std::move(order);
       // All surfaces that cost no more than the limit were there to be found.
       optimum.reached = optimum.cost <= limit;

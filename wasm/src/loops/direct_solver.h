@@ -48,12 +48,15 @@ bool solveDirectly(const Task& task, uint64_t maxSplits, double incumbent, Optim
                    SolverCounts& counts);
 
 /// Solves a task of sums over several loops by those of its domains that a surface of at most `most`
-/// (finite) can have, looking for cheaper ones first, unless that takes more than `maxSplits` splits. Reached, without
-/// a surface: none costs `most` or less. False when the work ended.
+/// (finite) can have, looking for cheaper ones first, unless that takes more than `maxSplits` splits.
+/// Reached, without a surface: none costs `most` or less. False when the work ended.
 ///   estimate  of the same set and measure, at costs none of which exceeds the task's
 ///   leastPair  see lower_bound.h
 bool solveWithin(const Task& task, FanEstimate& estimate, const std::vector<double>& leastPair,
                  double most, uint64_t maxSplits, Optimum& optimum, SolverCounts& counts);
+
+/// Candidates for each triangle of a surface.
+double candidatesPerTriangle(const LoopSet& loops, const CandidateSet& set);
 
 /// Whether the candidates are many for the surface, so that whatever looks at each of them is slow.
 bool isLarge(const LoopSet& loops, const CandidateSet& set);

@@ -118,6 +118,7 @@ const FanEstimate::Walks& FanEstimate::walksAcross(uint32_t vertex, uint32_t fro
   const Vertex& v = links_.vertices[vertex];
   Walks& walks = across_[v.firstEdge + fromEdge];
   if (!walks.arrive.empty()) return walks;
+  // Beyond the limit of memory the work ends at the next tick; these few more do no harm.
   memory_.add(8 * (2 * size_t(v.spokeCount) + v.edgeCount));
   walks.arrive.resize(v.spokeCount);
   walks.turned.resize(v.spokeCount);

@@ -36,8 +36,10 @@ class FanEstimate {
   /// triangles that no fan can use.
   void excess(std::vector<double>& excess) const;
 
-  /// At most the value of LowerBound::value, but for rounding(): the cost of a domain with the slot's
-  /// triangle as access triangle. O(segments), once the walks that it needs are known.
+  /// A lower bound, but for rounding(), on what a domain costs in any surface that has it, the slot's
+  /// triangle being its access triangle: as LowerBound::value. It may exceed R, which allows what is no
+  /// surface. O(segments), once the walks that it needs are known.
+  /// Precondition: lowerBound() is finite.
   double value(Shape shape, uint32_t slot);
 
   /// Triangles of whatever fills a domain.

@@ -30,7 +30,7 @@ struct FanLinks {
     uint32_t longest;             // most triangles that a fan can have here
   };
 
-  /// O(c) for c candidates.
+  /// O(c) for c candidates; the set is kept.
   FanLinks(const LoopSet& loops, const CandidateSet& set);
 
   /// Where an edge of the set stands among those of v, one of its ends.

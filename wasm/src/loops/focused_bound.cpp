@@ -37,10 +37,10 @@ uint32_t FocusedBound::reach(ArrayView<const uint32_t> key) {
   return node;
 }
 
-/// Takes up one split, or keeps what it costs in `dear` if that is too much.
-bool FocusedBound::addSplit(const Split& split, uint32_t slot, double outside, double& dear) {
+/// Takes up one split by triangle t, the index-th at the access edge, or keeps what it costs in `dear` if that is too much.
+bool FocusedBound::addSplit(const Split& split, uint32_t t, uint32_t index, double outside,
+                            double& dear) {
   const CandidateSet& set = pass_.set;
-  const uint32_t t = set.slotTriangle[slot];
   double cost = pass_.triangleCost[t];
   for (uint32_t i = 0; i < split.partCount; ++i)
     cost += leafCost(pass_, domains_, leastPair_, split.part[i], t);
@@ -65,10 +65,7 @@ bool FocusedBound::addSplit(const Split& split, uint32_t slot, double outside, d
     dear = std::min(dear, inside);
     return true;
   }
-  Entry entry{slot - set.edgeSlots[accessEdge(set, domains_, table_.key(visits_.back().node))],
-              {kNone, kNone},
-              {0, 0},
-              cost};
+  Entry entry{index, {kNone, kNone}, {0, 0}, cost};
   for (uint32_t i = 0; i < 2; ++i) {
     if (part_[i].key.empty()) continue;
     entry.part[i] = reach(part_[i].key);
@@ -103,13 +100,13 @@ bool FocusedBound::visit(uint32_t node, uint64_t& splitsLeft) {
   }
   bool good = true;
   for (uint32_t i = 0; i < degree && good; ++i) {
-    const uint32_t slot = begin + i;
+    const uint32_t t = set.slotTriangle[begin + i];
     // A triangle that no angle to those outside allows yet has to be known for others.
-    if (pass_.triangleCost[set.slotTriangle[slot]] == kInfinity) continue;
-    domains_.forEachSplit(shape, set.slotApex[slot], [&](const Split& split) {
+    if (pass_.triangleCost[t] == kInfinity) continue;
+    domains_.forEachSplit(shape, set.slotApex[begin + i], [&](const Split& split) {
       if (splitsLeft == 0 || !pass_.work.tick(800)) return good = false;
       --splitsLeft;
-      return good = addSplit(split, slot, at_[i], dear_[visits_.back().firstDear + i]);
+      return good = addSplit(split, t, i, at_[i], dear_[visits_.back().firstDear + i]);
     });
   }
   return good && pass_.work.going();

@@ -68,7 +68,7 @@ class FocusedBound final : public LowerBound {
 
   uint32_t reach(ArrayView<const uint32_t> key);
   bool visit(uint32_t node, uint64_t& splitsLeft);
-  bool addSplit(const Split& split, uint32_t slot, double outside, double& dear);
+  bool addSplit(const Split& split, uint32_t t, uint32_t index, double outside, double& dear);
   void improve(const Visit& visit, size_t endOfEntries);
 
   const Pass& pass_;

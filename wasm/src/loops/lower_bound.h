@@ -19,7 +19,8 @@ class LowerBound {
   virtual double value(Shape shape, uint32_t slot) = 0;
   /// The same for the root. Infinity: there is no surface.
   virtual double rootBound() const = 0;
-  /// What the same domain may cost at most within a surface that is of interest; kNone as slot: the root.
+  /// What the same domain may cost at most within a surface that is of interest, in the units of value();
+  /// kNone as slot: the root. -infinity if none of them has it.
   virtual double limit(Shape, uint32_t) { return kInfinity; }
 };
 

@@ -203,9 +203,8 @@ bool PassSolver::run(double from, double to) {
   const bool direct = k == 1 || gap || dense || (worst && large && k > 2) || !work.fits(fanBytes) ||
                       fanBytes > 40 * CandidateSet::bytesFor(double(task_.set.size()));
   // Domains are few where loops and candidates are.
-  const double triangles = double(loops.vertexCount()) + 2.0 * k - 4;
   const bool areFew =
-      (k == 2 || (k == 3 && double(task_.set.size()) <= kFewCandidates * triangles)) && !worst;
+      (k == 2 || (k == 3 && candidatesPerTriangle(loops, task_.set) <= kFewCandidates)) && !worst;
   const uint64_t splits = options_.firstSplits
                               ? options_.firstSplits
                               : loops.vertexCount() * (areFew ? kSplitsOfFew : kSplitsOfMany);
