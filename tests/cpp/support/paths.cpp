@@ -208,7 +208,7 @@ bool byFocusedBound(const sf::Pass& pass, uint32_t root, Optimum& optimum) {
 }
 bool byTwoLoopBound(const sf::Pass& pass, uint32_t root, Optimum& optimum) {
   sf::TwoLoopBound bound(pass, root);
-  return bound.compute() && byBound(pass, bound, root, sf::kLazyRounds, optimum);
+  return bound.compute(~uint64_t(0)) && byBound(pass, bound, root, sf::kLazyRounds, optimum);
 }
 bool byOneContext(const sf::Pass& pass, uint32_t root, Optimum& optimum) {
   const double usual = sf::TwoLoopBound::contextBytes;

@@ -98,18 +98,17 @@ bool solveDirectly(const Task& task, uint64_t maxSplits, double incumbent, Optim
       optimum.cost = kInfinity;
     return optimum.reached;
   };
-  if (isLarge(loops, set) && isDense(loops, set)) {
+  if (loops.loopCount() == 2) {
     TwoLoopBound bound(pass, root);
-    const bool bounded = bound.compute();
+    const bool bounded = bound.compute(maxSplits);
     counts.domains += bound.domainCount();
-    return bounded && solve(bound);
+    return bounded ? solve(bound) : task.work.going();
   }
   RelaxedBound bound(pass);
   const std::vector<uint32_t> rootShape = Domains(loops).root(root);
   const bool bounded = bound.compute(rootShape, maxSplits);
   counts.domains += bound.domainCount();
-  if (!bounded) return task.work.going();
-  return solve(bound);
+  return bounded ? solve(bound) : task.work.going();
 }
 
 bool solveWithin(const Task& task, FanEstimate& estimate, const std::vector<double>& leastPair,

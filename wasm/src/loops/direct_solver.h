@@ -61,7 +61,7 @@ double candidatesPerTriangle(const LoopSet& loops, const CandidateSet& set);
 /// Whether the candidates are many for the surface, so that whatever looks at each of them is slow.
 bool isLarge(const LoopSet& loops, const CandidateSet& set);
 
-/// Whether two loops have edges from one to the other nearly everywhere: bounds in dense arrays pay then.
+/// Whether two loops have edges from one to the other nearly everywhere, so that vertex fans tell little.
 bool isDense(const LoopSet& loops, const CandidateSet& set);
 
 }  // namespace sf

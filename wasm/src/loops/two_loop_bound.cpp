@@ -1,10 +1,17 @@
 #include "loops/two_loop_bound.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/sort.h"
 
 namespace sf {
+namespace {
+
+/// Incidences that a context visits in the time of a split of RelaxedBound.
+constexpr uint64_t kVisitsPerSplit = 16;
+
+}  // namespace
 
 TwoLoopBound::TwoLoopBound(const Pass& pass, uint32_t rootVertex)
     : pass_(pass), memory_(pass.work), transform_(pass.measure) {
@@ -28,198 +35,289 @@ double TwoLoopBound::segmentValue(uint32_t t, uint32_t opposite, uint32_t start,
                               pass_.segments.sideFrom(edge, start));
 }
 
-/// What innerTheta_ and innerBase_ cost each triangle at the edge as access triangle.
-void TwoLoopBound::apply(uint32_t edge, double* values) {
-  transform_.apply(innerTheta_.data(), innerBase_.data(), innerBase_.size(),
-                   &pass_.set.slotTheta[pass_.set.edgeSlots[edge]], pass_.set.degree(edge), values);
+void TwoLoopBound::findSpanningEdges() {
+  const CandidateSet& set = pass_.set;
+  for (uint32_t e = 0; e < set.edgeCount(); ++e) {
+    uint32_t u = set.edgeVertices[2 * size_t(e)], v = set.edgeVertices[2 * size_t(e) + 1];
+    if (isOnA(u) == isOnA(v)) continue;
+    if (isOnA(v)) std::swap(u, v);
+    spans_.push_back({e, placeOf(u), v - firstB_, 0, 0});
+  }
+  sf::sort(spans_.begin(), spans_.end(), [](const SpanningEdge& x, const SpanningEdge& y) {
+    return x.place != y.place ? x.place < y.place : x.number < y.number;
+  });
+  firstSpan_.assign(sizeA_ + 1, 0);
+  columnSize_.assign(sizeB_, 0);
+  uint32_t incidences = 0;
+  for (uint32_t i = 0; i < spans_.size(); ++i) {
+    SpanningEdge& span = spans_[i];
+    spanOf_[span.edge] = i;
+    ++firstSpan_[span.place + 1];
+    span.first = incidences;
+    span.column = columnSize_[span.number];
+    incidences += set.degree(span.edge);
+    columnSize_[span.number] += set.degree(span.edge);
+  }
+  for (uint32_t place = 0; place < sizeA_; ++place) firstSpan_[place + 1] += firstSpan_[place];
+  spans_.push_back({kNone, kNone, kNone, incidences, 0});
 }
 
 bool TwoLoopBound::buildIncidences() {
   const CandidateSet& set = pass_.set;
   const Measure& measure = pass_.measure;
-  firstIncidence_.assign(size_t(sizeA_) * sizeB_ + 1, 0);
-  incidences_.clear();
-  const auto indexAt = [&](uint32_t t, uint32_t opposite) {
-    return set.slotOpposite(t, opposite) - set.edgeSlots[set.edgeOpposite(t, opposite)];
-  };
-  for (uint32_t place = 0; place < sizeA_; ++place) {
-    for (uint32_t b = 0; b < sizeB_; ++b) {
-      const size_t number = size_t(place) * sizeB_ + b, first = incidences_.size();
-      const uint32_t u = vertexA(place), v = firstB_ + b, edge = set.edgeBetween(u, v);
-      for (uint32_t s = edge == kNone ? 0 : set.edgeSlots[edge];
-           edge != kNone && s < set.edgeSlots[edge + 1]; ++s) {
-        const uint32_t t = set.slotTriangle[s], apex = set.slotApex[s];
-        const double w = pass_.triangleCost[t];
-        Incidence at{};
-        at.theta = set.slotTheta[s];
-        at.isOnA = apex - firstA_ < sizeA_;
-        at.apex = at.isOnA ? placeOf(apex) : apex - firstB_;
-        at.ownIndex = s - set.edgeSlots[edge];
-        at.index = indexAt(t, at.isOnA ? u : v);
-        for (int backward = 0; backward < 2; ++backward)
-          at.base[backward] = measure.join(w, at.isOnA   ? segmentValue(t, v, u, apex)
-                                              : backward ? segmentValue(t, u, v, apex)
-                                                         : segmentValue(t, u, apex, v));
-        incidences_.push_back(at);
-      }
-      sf::sort(incidences_.begin() + std::ptrdiff_t(first), incidences_.end(),
-               [](const Incidence& x, const Incidence& y) { return x.theta < y.theta; });
-      firstIncidence_[number + 1] = incidences_.size();
-      if (!pass_.work.tick(uint32_t(100 * (incidences_.size() - first)) + 10)) return false;
+  std::vector<uint32_t> around;
+  for (size_t i = 0; i + 1 < spans_.size(); ++i) {
+    const uint32_t edge = spans_[i].edge;
+    around.clear();
+    for (uint32_t s = set.edgeSlots[edge]; s < set.edgeSlots[edge + 1]; ++s) around.push_back(s);
+    sf::sort(around.begin(), around.end(),
+             [&](uint32_t x, uint32_t y) { return set.slotTheta[x] < set.slotTheta[y]; });
+    for (size_t j = 0; j < around.size(); ++j)
+      incidenceOf_[around[j]] = spans_[i].first + uint32_t(j);
+  }
+  incidences_.resize(spans_.back().first);
+  for (size_t i = 0; i + 1 < spans_.size(); ++i) {
+    const uint32_t edge = spans_[i].edge;
+    const uint32_t u = vertexA(spans_[i].place), v = firstB_ + spans_[i].number;
+    for (uint32_t s = set.edgeSlots[edge]; s < set.edgeSlots[edge + 1]; ++s) {
+      const uint32_t t = set.slotTriangle[s], apex = set.slotApex[s];
+      const double w = pass_.triangleCost[t];
+      Incidence& at = incidences_[incidenceOf_[s]];
+      at.theta = set.slotTheta[s];
+      at.isOnA = isOnA(apex);
+      at.apex = at.isOnA ? placeOf(apex) : apex - firstB_;
+      const uint32_t left = at.isOnA ? u : v;
+      at.rest = incidenceOf_[set.slotOpposite(t, left)];
+      const SpanningEdge& rest = spans_[spanOf_[set.edgeOpposite(t, left)]];
+      at.column = rest.column + at.rest - rest.first;
+      for (int backward = 0; backward < 2; ++backward)
+        at.base[backward] = measure.join(w, at.isOnA   ? segmentValue(t, v, u, apex)
+                                            : backward ? segmentValue(t, u, v, apex)
+                                                       : segmentValue(t, u, apex, v));
     }
+    if (!pass_.work.tick(100 * set.degree(edge))) return false;
   }
   return true;
 }
 
-void TwoLoopBound::computeFront(Context& c, uint32_t place, uint32_t length) {
-  const CandidateSet& set = pass_.set;
-  const uint32_t v = vertexB(c, length), edge = set.edgeBetween(vertexA(place), v);
-  size_t& offset = c.offset[size_t(place) * (sizeB_ + 1) + length];
-  offset = kNoEdge;
-  // The closing edge cannot be closed by all of B.
-  if (edge == kNone || (place == c.end && length == sizeB_)) return;
-  offset = c.values.size();
-  c.values.resize(offset + set.degree(edge), kInfinity);
-  double* values = &c.values[offset];
-  if (place == c.end && length == 0) {
-    const uint32_t begin = set.edgeSlots[edge];
-    std::copy(&leastPair_[begin], &leastPair_[begin] + set.degree(edge), values);
-    return;
-  }
-  innerTheta_.clear();
-  innerBase_.clear();
-  outerTheta_.clear();
-  outerIndex_.clear();
-  const size_t number = size_t(place) * sizeB_ + (v - firstB_);
-  for (size_t i = firstIncidence_[number]; i < firstIncidence_[number + 1]; ++i) {
-    const Incidence& t = incidences_[i];
-    const uint32_t at = t.isOnA ? t.apex : lengthTo(c, firstB_ + t.apex);
-    // The access triangle is outside of the front; at the closing edge's ends there are both kinds.
-    if (t.isOnA ? at < place || at >= c.end : at == 0 || at >= length) {
-      outerTheta_.push_back(t.theta);
-      outerIndex_.push_back(t.ownIndex);
+/// What is left to fill before the access edge, with `length` edges of B.
+void TwoLoopBound::computeFront(Context& c, const SpanningEdge& access, uint32_t length) {
+  const uint32_t closingPlace = spans_[c.closing].place, q = spans_[c.closing].number;
+  const bool whole = length == sizeB_;
+  const Incidence* around = &incidences_[access.first];
+  const uint32_t degree = (&access)[1].first - access.first;
+  double* values = whole ? &c.whole[access.column] : &c.values[access.first];
+  size_t inner = 0, outer = 0;
+  for (uint32_t i = 0; i < degree; ++i) {
+    const Incidence& t = around[i];
+    uint32_t at = t.apex;
+    if (!t.isOnA) {
+      at = c.reversed ? q - at : at - q;
+      if (at >= sizeB_) at += sizeB_;  // below 0
     }
-    if (t.isOnA ? at < place || at > c.end : at >= length) continue;
-    const size_t rest =
-        t.isOnA ? size_t(at) * (sizeB_ + 1) + length : size_t(place) * (sizeB_ + 1) + at;
-    if (c.offset[rest] == kNoEdge) continue;
-    const double base = pass_.measure.join(t.base[c.reversed], c.values[c.offset[rest] + t.index]);
+    // The access triangle is outside of the front; at the closing edge's ends there are both kinds.
+    if (t.isOnA ? at < access.place || at >= closingPlace : at == 0 || at >= length) {
+      outerTheta_[outer] = t.theta;
+      outer_[outer++] = i;
+    }
+    if (t.isOnA ? at < access.place || at > closingPlace : at >= length) continue;
+    const double rest = whole && t.isOnA ? c.whole[t.column] : c.values[t.rest];
+    const double base = pass_.measure.join(t.base[c.reversed], rest);
     if (base == kInfinity) continue;
-    innerTheta_.push_back(t.theta);
-    innerBase_.push_back(base);
+    innerTheta_[inner] = t.theta;
+    innerBase_[inner++] = base;
   }
-  outerValue_.resize(outerIndex_.size());
-  transform_.applySorted(innerTheta_.data(), innerBase_.data(), innerBase_.size(),
-                         outerTheta_.data(), outerTheta_.size(), outerValue_.data());
-  for (size_t j = 0; j < outerIndex_.size(); ++j) values[outerIndex_[j]] = outerValue_[j];
+  if (inner == 0) return;
+  ++domainCount_;
+  transform_.applySorted(innerTheta_.data(), innerBase_.data(), inner, outerTheta_.data(), outer,
+                         outerValue_.data());
+  for (size_t j = 0; j < outer; ++j) values[outer_[j]] = outerValue_[j];
 }
 
 bool TwoLoopBound::computeContext(Context& c) {
-  c.values.clear();
-  c.offset.assign(size_t(sizeA_) * (sizeB_ + 1), kNoEdge);
-  for (uint32_t length = 0; length <= sizeB_; ++length)
-    for (uint32_t place = c.end + 1; place-- > 0;) computeFront(c, place, length);
-  domainCount_ += size_t(c.end + 1) * (sizeB_ + 1);
-  return pass_.work.tick(uint32_t(std::min<size_t>(30 * c.values.size(), 1u << 30)));
-}
-
-/// The run of A from place x to place y, with B as hole.
-bool TwoLoopBound::computeWithHole(uint32_t x, uint32_t y) {
   const CandidateSet& set = pass_.set;
-  const uint32_t u = vertexA(x), v = vertexA(y), edge = set.edgeBetween(u, v);
-  const bool root = x == 0 && y + 1 == sizeA_;
-  // Only at the root may a loop edge close more than itself.
-  if (edge == kNone || (set.isLoopEdge[edge] && !root)) return true;
-  const auto withHole = [&](uint32_t from, uint32_t to, uint32_t slot) {
-    const size_t at = holeOffset_[size_t(from) * sizeA_ + to];
-    if (at == kNoEdge) return kInfinity;
-    return holeValues_[at + slot -
-                       set.edgeSlots[set.edgeOpposite(set.slotTriangle[slot], set.slotApex[slot])]];
-  };
-  innerTheta_.clear();
-  innerBase_.clear();
-  const Measure& measure = pass_.measure;
-  for (uint32_t s = set.edgeSlots[edge]; s < set.edgeSlots[edge + 1]; ++s) {
-    const uint32_t t = set.slotTriangle[s], apex = set.slotApex[s];
-    double parts;
-    if (apex - firstA_ < sizeA_) {
-      const uint32_t at = placeOf(apex);
-      if (at <= x || at >= y) continue;
-      parts = std::min(
-          measure.join(withHole(x, at, set.slotOpposite(t, v)), segmentValue(t, u, apex, v)),
-          measure.join(segmentValue(t, v, u, apex), withHole(at, y, set.slotOpposite(t, u))));
+  const SpanningEdge& closing = spans_[c.closing];
+  const uint32_t q = closing.number;
+  c.values.assign(incidenceEnd(closing.place), kInfinity);
+  c.whole.assign(columnSize_[q], kInfinity);
+  for (uint32_t place = closing.place + 1; place-- > 0;) {
+    const SpanningEdge *first = &spans_[firstSpan_[place]], *last = &spans_[firstSpan_[place + 1]];
+    // The edges at this vertex of A in the order in which B is passed from q on.
+    const SpanningEdge* from = first;
+    while (from < last && from->number < q) ++from;
+    const bool touchesQ = from < last && from->number == q;
+    if (touchesQ && place == closing.place)
+      for (uint32_t s = set.edgeSlots[from->edge]; s < set.edgeSlots[from->edge + 1]; ++s)
+        c.values[incidenceOf_[s]] = leastPair_[s];
+    else if (touchesQ)
+      computeFront(c, *from, 0);
+    if (c.reversed) {
+      for (const SpanningEdge* e = from; e-- > first;) computeFront(c, *e, q - e->number);
+      for (const SpanningEdge* e = last; e-- > from + touchesQ;)
+        computeFront(c, *e, q + sizeB_ - e->number);
     } else {
-      parts = std::min(start(x, y, apex, false), start(x, y, apex, true));
+      for (const SpanningEdge* e = from + touchesQ; e < last; ++e)
+        computeFront(c, *e, e->number - q);
+      for (const SpanningEdge* e = first; e < from; ++e)
+        computeFront(c, *e, e->number + sizeB_ - q);
     }
-    const double base = measure.join(pass_.triangleCost[t], parts);
-    if (base == kInfinity) continue;
-    innerTheta_.push_back(set.slotTheta[s]);
-    innerBase_.push_back(base);
+    // The closing edge cannot be closed by all of B.
+    if (touchesQ && place < closing.place) computeFront(c, *from, sizeB_);
   }
-  if (root) {
-    for (const double base : innerBase_) rootBound_ = std::min(rootBound_, base);
-  } else {
-    holeOffset_[size_t(x) * sizeA_ + y] = holeValues_.size();
-    holeValues_.resize(holeValues_.size() + set.degree(edge));
-    apply(edge, &holeValues_[holeOffset_[size_t(x) * sizeA_ + y]]);
-  }
-  ++domainCount_;
-  return pass_.work.tick(30 * set.degree(edge));
+  return pass_.work.tick(uint32_t(std::min<size_t>(10 * c.values.size(), 1u << 30)));
 }
 
-bool TwoLoopBound::compute() {
+/// The edges between vertices of A, short runs first, the root last.
+std::vector<uint32_t> TwoLoopBound::chordsByLength() const {
   const CandidateSet& set = pass_.set;
-  const double fronts = double(sizeA_) * (sizeB_ + 1);
-  const double degree =
-      double(set.slotTriangle.size()) / double(std::max<size_t>(set.edgeCount(), 1));
-  const double bytes =
-      8.0 * (double(set.slotTriangle.size()) + 2 * fronts * sizeA_ + fronts * (degree + 1) +
-             6 * sizeA_ * (sizeB_ * degree) + 0.5 * sizeA_ * sizeA_ * (degree + 2));
-  contextBytes_ = 8.0 * fronts * (degree + 1);
-  mostContexts_ = size_t(std::max(1.0, contextBytes / contextBytes_));
-  if (!pass_.work.fits(bytes)) {
-    pass_.work.fail(Status::TooLarge);
-    return false;
-  }
-  if (!memory_.add(size_t(bytes))) return false;
-  contextAt_.assign(2 * size_t(sizeA_) * sizeB_, kNone);
-  leastPair_ = leastPairs(set, pass_.measure);
-  starts_.assign(2 * size_t(sizeA_) * sizeB_ * sizeA_, kInfinity);
-  holeOffset_.assign(size_t(sizeA_) * sizeA_, kNoEdge);
-  if (!buildIncidences()) return false;
-  Context c;
-  for (c.end = 1; c.end < sizeA_; ++c.end) {
-    pass_.work.setFraction(double(c.end) * c.end / (double(sizeA_) * sizeA_));
-    for (c.first = firstB_; c.first < firstB_ + sizeB_; ++c.first) {
-      const uint32_t p = vertexA(c.end);
-      if (set.edgeBetween(p, c.first) == kNone) continue;
-      for (const bool reversed : {false, true}) {
-        c.reversed = reversed;
-        if (!computeContext(c)) return false;
-        for (uint32_t place = 0; place < c.end; ++place) {
-          const size_t offset = c.offset[size_t(place) * (sizeB_ + 1) + sizeB_];
-          if (offset == kNoEdge) continue;
-          const uint32_t edge = set.edgeBetween(vertexA(place), c.first);
-          for (uint32_t s = set.edgeSlots[edge]; s < set.edgeSlots[edge + 1]; ++s)
-            if (set.slotApex[s] == p)
-              start(place, c.end, c.first, reversed) = c.values[offset + s - set.edgeSlots[edge]];
-        }
+  const auto length = [&](uint32_t e) {
+    const uint32_t x = placeOf(set.edgeVertices[2 * size_t(e)]);
+    const uint32_t y = placeOf(set.edgeVertices[2 * size_t(e) + 1]);
+    return x < y ? y - x : x - y;
+  };
+  std::vector<uint32_t> chords;
+  for (uint32_t e = 0; e < set.edgeCount(); ++e)
+    if (isOnA(set.edgeVertices[2 * size_t(e)]) && isOnA(set.edgeVertices[2 * size_t(e) + 1]) &&
+        // Only at the root may a loop edge close more than itself.
+        (!set.isLoopEdge[e] || length(e) + 1 == sizeA_))
+      chords.push_back(e);
+  sf::sort(chords.begin(), chords.end(), [&](uint32_t e, uint32_t f) {
+    const uint32_t x = length(e), y = length(f);
+    return x != y ? x < y : e < f;
+  });
+  return chords;
+}
+
+/// Marks the closing edges that splits of the root lead to; returns how many incidences the
+/// contexts of all of them have.
+uint64_t TwoLoopBound::findContexts(const std::vector<uint32_t>& chords,
+                                    std::vector<uint8_t>& wanted) const {
+  const CandidateSet& set = pass_.set;
+  std::vector<uint8_t> reached(set.edgeCount(), 0);
+  wanted.assign(spans_.size() - 1, 0);
+  if (!chords.empty()) reached[chords.back()] = 1;
+  uint64_t visits = 0;
+  for (size_t i = chords.size(); i-- > 0;) {
+    const uint32_t edge = chords[i];
+    if (!reached[edge]) continue;
+    const uint32_t* ends = &set.edgeVertices[2 * size_t(edge)];
+    const bool swap = placeOf(ends[0]) > placeOf(ends[1]);
+    const uint32_t u = ends[swap], v = ends[!swap];
+    for (uint32_t s = set.edgeSlots[edge]; s < set.edgeSlots[edge + 1]; ++s) {
+      const uint32_t t = set.slotTriangle[s], apex = set.slotApex[s];
+      if (!isOnA(apex)) {
+        const uint32_t closing = spanOf_[set.edgeOpposite(t, u)];
+        if (!wanted[closing]) visits += 2 * uint64_t(incidenceEnd(spans_[closing].place));
+        wanted[closing] = 1;
+      } else if (placeOf(u) < placeOf(apex) && placeOf(apex) < placeOf(v)) {
+        reached[set.edgeOpposite(t, u)] = reached[set.edgeOpposite(t, v)] = 1;
       }
     }
   }
-  for (uint32_t length = 1; length < sizeA_; ++length)
-    for (uint32_t x = 0; x + length < sizeA_; ++x)
-      if (!computeWithHole(x, x + length)) return false;
+  return visits;
+}
+
+/// Case I enters B from its triangle's two spanning edges: one closes, the other is the access edge.
+void TwoLoopBound::keepStarts(const Context& c) {
+  const CandidateSet& set = pass_.set;
+  const SpanningEdge& closing = spans_[c.closing];
+  for (uint32_t s = set.edgeSlots[closing.edge]; s < set.edgeSlots[closing.edge + 1]; ++s) {
+    const Incidence& at = incidences_[incidenceOf_[s]];
+    if (at.isOnA && at.apex < closing.place)
+      starts_[2 * size_t(set.slotTriangle[s]) + c.reversed] = c.whole[at.column];
+  }
+}
+
+/// The run of A between the ends of the edge, with B as hole.
+bool TwoLoopBound::computeWithHole(uint32_t chord) {
+  const CandidateSet& set = pass_.set;
+  const Measure& measure = pass_.measure;
+  const uint32_t* ends = &set.edgeVertices[2 * size_t(chord)];
+  const bool swap = placeOf(ends[0]) > placeOf(ends[1]);
+  const uint32_t u = ends[swap], v = ends[!swap];
+  const bool root = placeOf(v) - placeOf(u) + 1 == sizeA_;
+  size_t inner = 0;
+  for (uint32_t s = set.edgeSlots[chord]; s < set.edgeSlots[chord + 1]; ++s) {
+    const uint32_t t = set.slotTriangle[s], apex = set.slotApex[s];
+    double parts;
+    if (isOnA(apex)) {
+      const uint32_t at = placeOf(apex);
+      if (at <= placeOf(u) || at >= placeOf(v)) continue;
+      parts =
+          std::min(measure.join(withHole_[set.slotOpposite(t, v)], segmentValue(t, u, apex, v)),
+                   measure.join(segmentValue(t, v, u, apex), withHole_[set.slotOpposite(t, u)]));
+    } else {
+      parts = std::min(starts_[2 * size_t(t)], starts_[2 * size_t(t) + 1]);
+    }
+    const double base = measure.join(pass_.triangleCost[t], parts);
+    if (base == kInfinity) continue;
+    innerTheta_[inner] = set.slotTheta[s];
+    innerBase_[inner++] = base;
+  }
+  if (root) {
+    for (size_t i = 0; i < inner; ++i) rootBound_ = std::min(rootBound_, innerBase_[i]);
+  } else {
+    const uint32_t begin = set.edgeSlots[chord];
+    transform_.apply(innerTheta_.data(), innerBase_.data(), inner, &set.slotTheta[begin],
+                     set.degree(chord), &withHole_[begin]);
+  }
+  ++domainCount_;
+  return pass_.work.tick(30 * set.degree(chord));
+}
+
+bool TwoLoopBound::compute(uint64_t maxSplits) {
+  const CandidateSet& set = pass_.set;
+  const size_t slots = set.slotTriangle.size(), edges = set.edgeCount();
+  // Of the slots, at most two of three are at spanning edges.
+  const double bytes = double(slots) * (2 * sizeof(Incidence) / 3.0 + 4 + 8 + 16 / 3.0 + 8) +
+                       double(edges) * (sizeof(SpanningEdge) + 4 + 4 + 4 + 8);
+  contextBytes_ = 8.0 * double(slots);
+  if (!pass_.work.fits(bytes + contextBytes_)) {
+    pass_.work.fail(Status::TooLarge);
+    return false;
+  }
+  if (!memory_.add(size_t(bytes + contextBytes_))) return false;
+  spanOf_.assign(edges, kNone);
+  incidenceOf_.assign(slots, kNone);
+  findSpanningEdges();
+  if (!buildIncidences()) return false;
+  contextBytes_ = 8.0 * double(incidences_.size());
+  mostContexts_ = size_t(std::max(1.0, contextBytes / std::max(1.0, contextBytes_)));
+  const std::vector<uint32_t> chords = chordsByLength();
+  std::vector<uint8_t> wanted;
+  const uint64_t visits = findContexts(chords, wanted);
+  if (visits / kVisitsPerSplit > maxSplits) return false;
+  leastPair_ = leastPairs(set, pass_.measure);
+  starts_.assign(2 * set.size(), kInfinity);
+  withHole_.assign(slots, kInfinity);
+  contextAt_.assign(2 * wanted.size(), kNone);
+  uint32_t mostAround = 0;
+  for (uint32_t e = 0; e < edges; ++e) mostAround = std::max(mostAround, set.degree(e));
+  for (auto* scratch : {&innerTheta_, &innerBase_, &outerTheta_, &outerValue_})
+    scratch->resize(mostAround);
+  outer_.resize(mostAround);
+  Context c;
+  uint64_t visited = 0;
+  for (c.closing = 0; c.closing < wanted.size(); ++c.closing) {
+    if (!wanted[c.closing]) continue;
+    for (const bool reversed : {false, true}) {
+      c.reversed = reversed;
+      if (!computeContext(c)) return false;
+      keepStarts(c);
+      visited += c.values.size();
+    }
+    pass_.work.setFraction(double(visited) / double(visits));
+  }
+  for (const uint32_t chord : chords)
+    if (!computeWithHole(chord)) return false;
   return true;
 }
 
-TwoLoopBound::Context& TwoLoopBound::contextOf(Segment a, Segment b) {
-  const uint32_t end = placeOf(a.end);
+TwoLoopBound::Context& TwoLoopBound::contextOf(uint32_t closing, Segment b) {
   // With one vertex of B, both directions are the same.
-  const size_t number = contextNumber(end, b.start, b.reversed);
-  const size_t other = contextNumber(end, b.start, !b.reversed);
+  const size_t number = 2 * size_t(closing) + b.reversed;
   uint32_t at = contextAt_[number];
-  if (at == kNone && b.isVertex()) at = contextAt_[other];
+  if (at == kNone && b.isVertex()) at = contextAt_[number ^ 1];
   if (at == kNone) {
     if (contexts_.empty() || (contexts_.size() < mostContexts_ && pass_.work.fits(contextBytes_))) {
       // The first one takes the place of that in which compute() worked.
@@ -231,11 +329,10 @@ TwoLoopBound::Context& TwoLoopBound::contextOf(Segment a, Segment b) {
           contexts_.begin(), contexts_.end(),
           [](const Context& x, const Context& y) { return x.lastUse < y.lastUse; });
       at = uint32_t(oldest - contexts_.begin());
-      contextAt_[contextNumber(oldest->end, oldest->first, oldest->reversed)] = kNone;
+      contextAt_[2 * size_t(oldest->closing) + oldest->reversed] = kNone;
     }
     contextAt_[number] = at;
-    contexts_[at].end = end;
-    contexts_[at].first = b.start;
+    contexts_[at].closing = closing;
     contexts_[at].reversed = b.reversed;
     computeContext(contexts_[at]);
   }
@@ -246,31 +343,25 @@ TwoLoopBound::Context& TwoLoopBound::contextOf(Segment a, Segment b) {
 double TwoLoopBound::value(Shape shape, uint32_t slot) {
   const Domains domains(pass_.loops);
   const CandidateSet& set = pass_.set;
-  const uint32_t edge = set.edgeOpposite(set.slotTriangle[slot], set.slotApex[slot]);
-  const uint32_t index = slot - set.edgeSlots[edge];
   Segment first = domains.segment(shape, 0);
-  if (domains.segmentCount(shape) == 1) {
-    const uint32_t from = placeOf(first.reversed ? first.end : first.start);
-    const uint32_t to = placeOf(first.reversed ? first.start : first.end);
-    const size_t at = holeOffset_[size_t(from) * sizeA_ + to];
-    return at == kNoEdge ? kInfinity : holeValues_[at + index];
-  }
+  if (domains.segmentCount(shape) == 1) return withHole_[slot];
   // As the mirror image that passes A forward, and A first, so that the closing edge follows A.
   Segment a = first, b = domains.segment(shape, 1);
-  if (pass_.loops.loopOf(a.start) != pass_.loops.loopOf(firstA_)) {
+  if (!isOnA(a.start)) {
     std::swap(a, b);
     std::swap(a.start, a.end);
     std::swap(b.start, b.end);
     b.reversed = !b.reversed;
   }
-  const uint32_t place = placeOf(a.start);
+  const uint32_t t = set.slotTriangle[slot];
   // What case I asks is kept.
-  if (b.whole && placeOf(a.end) > place && set.slotApex[slot] == a.end)
-    return start(place, placeOf(a.end), b.start, b.reversed);
-  const Context* context = &contextOf(a, b);
-  const uint32_t length = b.whole ? sizeB_ : lengthTo(*context, b.end);
-  const size_t at = context->offset[size_t(place) * (sizeB_ + 1) + length];
-  return at == kNoEdge ? kInfinity : context->values[at + index];
+  if (b.whole && placeOf(a.end) > placeOf(a.start) && set.slotApex[slot] == a.end)
+    return starts_[2 * size_t(t) + b.reversed];
+  const Context& context = contextOf(spanOf_[set.edgeBetween(a.end, b.start)], b);
+  const uint32_t at = incidenceOf_[slot];
+  if (!b.whole) return context.values[at];
+  const SpanningEdge& access = spans_[spanOf_[set.edgeOpposite(t, set.slotApex[slot])]];
+  return context.whole[access.column + at - access.first];
 }
 
 }  // namespace sf
