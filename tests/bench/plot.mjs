@@ -105,7 +105,8 @@ const kMarks = {
 /**
  * A log-log chart in the rectangle [x, x + width] × [y, y + height], its axes' labels inside.
  *   series  { points: [[n, value]…], ink: 'k1'…'k6', mark: 'line' | 'dotted' | 'diamond', label? }
- *   label   stands at the last point; { text, exponent } writes text n^exponent
+ *   label   stands right of the chart, at the height of the last point; { text, exponent } writes
+ *           text n^exponent
  */
 export function logLog({ x, y, width, height, title, xLabel, format, series }) {
   const drawn = series.filter(({ points }) => points.length > 0);
@@ -124,16 +125,20 @@ export function logLog({ x, y, width, height, title, xLabel, format, series }) {
   }
   parts.push(path([[left, top], [left, bottom], [right, bottom]], 'a'));
   parts.push(text((left + right) / 2, bottom + 30, xLabel, 'm'));
-  const labels = [];
-  for (const { points, ink, mark, label } of drawn) {
-    const placed = [...points]
+  const curves = drawn.map(({ points, ...curve }) => ({
+    ...curve,
+    placed: [...points]
       .sort((p, q) => p[0] - q[0])
-      .map(([n, value]) => [across.at(n), up.at(value)]);
-    parts.push(kMarks[mark](placed, ink));
-    const [endX, endY] = placed.at(-1);
-    if (label) labels.push({ x: endX + 7, y: endY + 4, ink, ...label });
+      .map(([n, value]) => [across.at(n), up.at(value)]),
+  }));
+  const labels = curves
+    .filter(({ label }) => label)
+    .map(({ placed, ink, label }) => ({ end: placed.at(-1), y: placed.at(-1)[1] + 4, ink, ...label }));
+  for (const { end, y: at } of spread(labels, 13)) {
+    if (end[0] < right - 16) parts.push(path([[end[0] + 5, end[1]], [right + 2, at - 4]], 'a'));
   }
-  for (const label of spread(labels, 13)) parts.push(endLabel(label));
+  for (const { placed, ink, mark } of curves) parts.push(kMarks[mark](placed, ink));
+  for (const label of labels) parts.push(endLabel({ ...label, x: right + 7 }));
   return parts.join('\n');
 }
 

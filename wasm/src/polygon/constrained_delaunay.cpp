@@ -18,6 +18,8 @@ constexpr uint32_t kFixed = 1u << 31;
 // Edges between triangles among so many, to the power of two, come in any order.
 constexpr int kFirstLevel = 3;
 constexpr int kLevels = 32;
+// Half-edges up to which flips are fewer than what merges have to prepare, measured.
+constexpr uint32_t kFewHalves = 3 * 64;
 
 /// How far apart two triangles are in the list: the first binary digit in which they differ.
 int levelOf(uint32_t t, uint32_t s) {
@@ -39,7 +41,14 @@ bool ConstrainedDelaunay::run(const LinkedPolygon& loops, bool simple, Work& wor
   metric_ = metricPoints(loops.at, scaled_, isExact_).data();
   count_ = uint32_t(triangles.size());
   corners_ = triangles.data(), twins_ = twins.data();
-  return giveUpEdges(fixEdges(), simple, work);
+  return isExact_ && count_ <= kFewHalves ? flipAll(work) : giveUpEdges(fixEdges(), simple, work);
+}
+
+bool ConstrainedDelaunay::flipAll(Work& work) {
+  stack_.clear();
+  for (uint32_t h = 0; h < count_; ++h)
+    if (h < twins_[h] && twins_[h] != kNone) stack_.push_back(h);
+  return work.tick(50 * (count_ + flipStacked()));
 }
 
 /// Fixes all edges, and orders them; returns how many there are.
@@ -75,7 +84,10 @@ bool ConstrainedDelaunay::giveUpEdges(uint32_t count, bool simple, Work& work) {
       parts_[a] = b;
     }
     uint32_t changes = 1;
-    if (isIllegal(h)) changes += apart ? merge(h) : flipFrom(h);
+    if (isIllegal(h)) {
+      stack_.assign(1, h);
+      changes += apart ? merge(h) : flipStacked();
+    }
     if (!work.tick(50 * changes)) return false;
   }
   return true;
@@ -104,14 +116,12 @@ void ConstrainedDelaunay::setTwin(uint32_t h, uint32_t g) {
     halves_[(g - kFixed) ^ 1] = h;
 }
 
-/// Flips edge h, which is illegal, and all that become so. Returns the number of flips.
-uint32_t ConstrainedDelaunay::flipFrom(uint32_t h) {
+/// Flips the edges of the stack that are illegal, and all that become so. Returns the number of flips.
+uint32_t ConstrainedDelaunay::flipStacked() {
   uint32_t flips = 0;
-  stack_.assign(1, h);
   while (!stack_.empty()) {
-    h = stack_.back();
+    const uint32_t h = stack_.back(), g = twins_[h];
     stack_.pop_back();
-    const uint32_t g = twins_[h];
     if (g >= kFixed || !isIllegal(h)) continue;
     const uint32_t h1 = nextInTriangle(h), g1 = nextInTriangle(g);
     const uint32_t h2 = prevInTriangle(h), g2 = prevInTriangle(g);

@@ -12,8 +12,8 @@
 // interpolation", for flips.
 // Differs: parts are separated by an edge that both have, not by a line, so that the circle starts at
 // its end. Where both sides are connected elsewhere, around a hole or an isolated point, they could
-// have a triangle in common: there, flips. Flips alone, all edges at once, take O(n) a vertex on
-// smooth curves, since water leaves thin triangles side by side.
+// have a triangle in common: there, flips. Flips alone, all edges at once, are for small polygons:
+// they take O(n) a vertex on smooth curves, since water leaves thin triangles side by side.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -43,6 +43,7 @@ class ConstrainedDelaunay {
     uint32_t vertex, outer;
   };
 
+  bool flipAll(Work& work);
   uint32_t fixEdges();
   bool giveUpEdges(uint32_t count, bool simple, Work& work);
   bool isIllegal(uint32_t h) const;
@@ -51,7 +52,7 @@ class ConstrainedDelaunay {
   void takeRight(uint32_t left, uint32_t right);
   uint32_t create(uint32_t a, uint32_t b, uint32_t c);
   void setTwin(uint32_t h, uint32_t g);
-  uint32_t flipFrom(uint32_t h);
+  uint32_t flipStacked();
   uint32_t partOf(uint32_t t);
 
   uint32_t *corners_ = nullptr, *twins_ = nullptr;
