@@ -101,10 +101,9 @@ bool RelaxedBound::compute(ArrayView<const uint32_t> root, uint64_t maxSplits) {
   const double expectedSplits = std::min(double(maxSplits), 1e7);
   leastPair_ = leastPairs(pass_.set, pass_.measure);
   if (table_.insert(root) == kNone || !open(0)) return false;
+  uint64_t closed = 0;
   while (!frames_.empty()) {
     Frame& frame = frames_.back();
-    // How much is left shows only at the end; this comes to 0.95 for an ordinary number of splits.
-    pass_.work.setFraction(1 - std::exp(-3 * double(maxSplits - splitsLeft_) / expectedSplits));
     uint32_t missing = kNone;
     while (frame.cursor < entries_.size() && missing == kNone) {
       const Entry& entry = entries_[frame.cursor];
@@ -118,6 +117,9 @@ bool RelaxedBound::compute(ArrayView<const uint32_t> root, uint64_t maxSplits) {
     }
     if (!close(frame)) return false;
     frames_.pop_back();
+    // How much is left shows only at the end; this comes to 0.95 for an ordinary number of splits.
+    if (++closed % 64 == 0)
+      pass_.work.setFraction(1 - std::exp(-3 * double(maxSplits - splitsLeft_) / expectedSplits));
   }
   return true;
 }
