@@ -78,6 +78,23 @@ class Domains {
   uint32_t spanEnd(Shape d, uint32_t i) const {
     return segment(d, i + 1 == segmentCount(d) ? 0 : i + 1).start;
   }
+  /// Words of a shape that say which loops are holes.
+  uint32_t holeWords() const { return holeWords_; }
+  /// Writes segment i. The direction of a single vertex is not kept.
+  void setSegment(std::vector<uint32_t>& d, uint32_t i, Segment s) const {
+    if (s.isVertex()) s.reversed = false;
+    d[holeWords_ + 2 * i] = s.start | (s.reversed ? kReversed : 0) | (s.whole ? kWhole : 0);
+    d[holeWords_ + 2 * i + 1] = s.end;
+  }
+  /// Lets segment i, which is no single vertex, pass its loop forward.
+  void setForward(std::vector<uint32_t>& d, uint32_t i) const {
+    d[holeWords_ + 2 * i] &= ~kReversed;
+  }
+  /// Whether the segment has v, a vertex of any loop.
+  bool contains(Segment s, uint32_t v) const;
+  /// In place of an end of a segment, where a key stands for shapes with any vertex there; of every
+  /// other one it differs.
+  static constexpr uint32_t kAnyVertex = (1u << 30) - 1;
   /// Whether v is an end of one of the segments: the only vertices that weak edges join.
   bool isEnd(Shape d, uint32_t v) const;
 
@@ -95,12 +112,6 @@ class Domains {
  private:
   static constexpr uint32_t kReversed = 1u << 30, kWhole = 1u << 31, kVertexMask = kReversed - 1;
 
-  void setSegment(std::vector<uint32_t>& d, uint32_t i, Segment s) const {
-    if (s.isVertex()) s.reversed = false;
-    d[holeWords_ + 2 * i] = s.start | (s.reversed ? kReversed : 0) | (s.whole ? kWhole : 0);
-    d[holeWords_ + 2 * i + 1] = s.end;
-  }
-  bool contains(Segment s, uint32_t v) const;
   /// Classifies split.part[i]; false if no surface can fill it.
   bool classify(SplitPart& part, bool repeatsSpanningEdge) const;
   void splitAtHole(Shape d, uint32_t apex, bool reversed);

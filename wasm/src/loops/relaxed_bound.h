@@ -3,11 +3,17 @@
 // at last, the least bi-triangle weight that the triangle on the near side can have is charged.
 // Source: none in Zou, Ju, Carr 2013; it bounds eq. 2 for the domains of sec. 3.2.1 and leaves out
 // the weak edge sets of sec. 3.2.2.
+//
+// Most triangles move one end of the access edge along a loop and leave everything else as it is. A
+// *context* is a domain's shape but for its access edge, and all domains of one context are its
+// *fronts*: entries of an array over the candidate edges between the two loops that the access edge
+// joins. Only contexts are looked up in a hash table, and few of them.
 #pragma once
 #include <cstdint>
 #include <vector>
 
 #include "base/arena.h"
+#include "base/charge.h"
 #include "loops/angular_transform.h"
 #include "loops/domain.h"
 #include "loops/domain_table.h"
@@ -19,7 +25,6 @@ namespace sf {
 class RelaxedBound final : public LowerBound {
  public:
   explicit RelaxedBound(const Pass& pass);
-  ~RelaxedBound() override;
 
   /// Computes R for the root and all that it can split into; false when the work ended, or after
   /// `maxSplits` splits of domains.
@@ -29,39 +34,94 @@ class RelaxedBound final : public LowerBound {
   double rootBound() const override { return rootBound_; }
 
   double value(Shape shape, uint32_t slot) override;
-  uint64_t domainCount() const { return table_.size(); }
+  uint64_t domainCount() const { return domainCount_; }
 
  private:
+  /// Loops that may be passed wholly at the ends of a boundary, where a front's edge ends at the vertex
+  /// at which that loop begins or ends: bit 0 for the first segment, bit 1 for the last.
+  using Whole = uint32_t;
+  static constexpr Whole kWholeFirst = 1, kWholeLast = 2, kWholes = 4;
+
+  /// The fronts of one context over the candidate edges between two loops, or over both runs between the
+  /// ends of each within one loop.
+  struct Block {
+    uint32_t context;
+    Whole whole;
+    double** values;  // by front: [degree of its edge], null until computed
+  };
+  struct Context {
+    uint32_t block[kWholes];  // kNone until one is wanted
+  };
+  struct Front {
+    uint32_t block, number;
+  };
   /// One way to split the domain under work: a triangle and up to two parts that are domains.
   struct Entry {
     uint32_t slot;      // of the triangle, at the access edge
-    uint32_t part[2];   // numbers of the parts, kNone for a part whose cost is in `cost`
+    Front part[2];      // block kNone for a part whose cost is in `cost`
     uint32_t index[2];  // of the triangle at the part's access edge
     double cost;        // w(t) joined with the costs of the parts that are not domains
   };
   struct Frame {
-    uint32_t domain;
+    Front front;
+    uint32_t edge;
     size_t firstEntry, cursor;
   };
-  bool open(uint32_t domain);
-  bool addEntry(const Split& split, uint32_t slot);
+  /// A part of a split: segments `from` to `to` of the domain, but for the first and the last of them.
+  struct Part {
+    uint32_t from, to;
+    Segment first, last;    // the same where from = to
+    uint32_t apexOpposite;  // the vertex of the triangle that is not on its access edge
+    bool repeats;           // its access edge spans the domain already
+  };
+
+  void findEdges();
+  /// All holes of the domain under work, a bit each. There is no end to the ways to distribute 64.
+  uint64_t all() const {
+    return holes_.size() < 64 ? (uint64_t(1) << holes_.size()) - 1 : ~uint64_t(0);
+  }
+  uint32_t pairOf(uint32_t u, uint32_t v) const;
+  Front insertFront(Segment first, Segment last, uint32_t edge);
+  Front insertFront(Shape shape);
+  Front frontOf(uint32_t context, Whole whole, Segment first, uint32_t edge);
+  static Whole wholeOf(Segment first, Segment last) {
+    return (first.whole ? kWholeFirst : 0) | (last.whole ? kWholeLast : 0);
+  }
+  double*& valuesOf(Front front) { return blocks_[front.block].values[front.number]; }
+  bool open(Front front);
+  uint32_t readDomain(Front front);
+  bool splitAtHole(uint32_t slot, uint32_t loop);
+  bool splitAtBoundary(uint32_t slot, uint32_t segment);
+  bool splitWith(uint32_t slot, const Part part[2]);
+  bool distribute(uint32_t slot, const Part part[2], uint64_t toFirst);
+  bool isFilled(const Part& part, uint32_t t, bool hasHoles, double& cost, bool& isDomain) const;
+  Front frontOfPart(const Part& part, uint32_t t, uint64_t holes);
+  bool addEntry(const Entry& entry);
   bool close(const Frame& frame);
 
   const Pass& pass_;
   Domains domains_;
-  DomainTable table_;
+  DomainTable table_;  // of contexts: shapes with kAnyVertex at the ends of the access edge
   Arena arena_;
-  std::vector<double*> values_;    // by domain: [degree of the access edge], null until computed
+  Charge memory_;
+  // Candidate edges between each two loops, or both ways round within one; by pairOf.
+  std::vector<uint32_t> firstOfPair_, edgesOfPair_;
+  std::vector<uint32_t> numberInPair_;  // [edges]
+  std::vector<Context> contexts_;
+  std::vector<Block> blocks_;
   std::vector<double> leastPair_;  // [slots]
   std::vector<Entry> entries_;     // of all open frames, one after the other
-  size_t entriesCharged_ = 0;
   std::vector<Frame> frames_;
+  // The domain under work.
+  std::vector<Segment> segments_;
+  std::vector<uint32_t> holes_;  // loops
+  uint32_t context_ = kNone;
   // Scratch of close(): by index of the slot at the access edge, and of those that are finite.
   std::vector<double> best_, innerTheta_, innerBase_;
   AngularTransform transform_;
-  std::vector<uint32_t> scratchKey_;
+  std::vector<uint32_t> key_;
   double rootBound_ = kInfinity;
-  uint64_t splitsLeft_ = 0;
+  uint64_t splitsLeft_ = 0, domainCount_ = 0;
 };
 
 }  // namespace sf

@@ -15,8 +15,9 @@ namespace {
 /// Splits of domains, times the vertices, to try first: fans cost in proportion to the vertices too.
 constexpr uint64_t kSplitsOfFew = 30000;
 constexpr uint64_t kSplitsOfMany = 1000;
-/// Candidates for each triangle of a surface over three loops that count as few.
-constexpr double kFewCandidates = 32;
+/// Loops whose domains are few if candidates are: for each triangle of a surface, and at each edge.
+constexpr uint32_t kFewLoops = 4;
+constexpr double kFewCandidates = 32, kFewAtEdge = 8;
 /// Of that number from round to round.
 constexpr uint64_t kGrowth = 6;
 /// Of a split in R, in nanoseconds.
@@ -203,8 +204,10 @@ bool PassSolver::run(double from, double to) {
   const bool direct = k == 1 || gap || dense || (worst && large && k > 2) || !work.fits(fanBytes) ||
                       fanBytes > 40 * CandidateSet::bytesFor(double(task_.set.size()));
   // Domains are few where loops and candidates are.
-  const bool areFew =
-      (k == 2 || (k == 3 && candidatesPerTriangle(loops, task_.set) <= kFewCandidates)) && !worst;
+  const bool areSparse =
+      candidatesPerTriangle(loops, task_.set) <= kFewCandidates &&
+      double(task_.set.slotTriangle.size()) <= kFewAtEdge * double(task_.set.edgeCount());
+  const bool areFew = (k == 2 || (k <= kFewLoops && areSparse)) && !worst;
   const uint64_t splits = options_.firstSplits
                               ? options_.firstSplits
                               : loops.vertexCount() * (areFew ? kSplitsOfFew : kSplitsOfMany);
