@@ -235,19 +235,20 @@ export function optimalityLoops(kind: 'single' | 'pairs', count: number): Loop[]
   });
 }
 
-/** Noisy loops of four kinds, single ones of 100 to 400 vertices or pairs of 10 to 20 each: on these the
- * `near` space is compared with all triples. */
-export function noisyLoops(kind: 'single' | 'pairs', count: number): Loop[][] {
+/** Noisy loops of four kinds, single ones of 100 to 400 vertices, pairs of 10 to 20 each or larger ones of
+ * 20 to 40: on these the `near` space is compared with all triples. */
+export function noisyLoops(kind: 'single' | 'pairs' | 'larger pairs', count: number): Loop[][] {
   return Array.from({ length: count }, (_, i) => {
     const random = new Random(600 + i);
     const noise = random.range(0.1, 1);
     const single = kind === 'single';
-    const size = () => (single ? 100 + random.below(301) : 10 + random.below(11));
+    const [least, most] = { single: [100, 400], pairs: [10, 20], 'larger pairs': [20, 40] }[kind];
+    const size = () => least + random.below(most - least + 1);
     const sizes = single ? [size()] : [size(), size()];
     const harmonic = (n: number) => withNoise(harmonicLoop(n, single ? 4 : 2, random), noise, random);
     switch (i % 4) {
       case 0:
-        return meshLoops(closedSurface(single ? 5 : 3, random), sizes, random);
+        return meshLoops(closedSurface({ single: 5, pairs: 3, 'larger pairs': 4 }[kind], random), sizes, random);
       case 1: {
         const apart = scale(random.range(0.3, 2), random.direction());
         return sizes.map((n, k) => harmonic(n).map((p) => add(p, scale(k, apart))));

@@ -130,6 +130,11 @@ async function measure(words, wantsAll) {
     found.near = {
       single: await measureOptimality(noisyLoops('single', 120), 'noisy_single', 'default,dihedral'),
       pairs: await measureOptimality(noisyLoops('pairs', 120), 'noisy_pair', 'default,dihedral,area'),
+      'larger pairs': await measureOptimality(
+        noisyLoops('larger pairs', 40),
+        'noisy_larger_pair',
+        'default,dihedral,area',
+      ),
     };
     print('', nearLines(found.near));
   }

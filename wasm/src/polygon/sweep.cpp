@@ -116,7 +116,11 @@ bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility&
     const VertexKind kind = linked.kind[v];
     const Point2 at = linked.at[v];
     const bool isMinimum = kind == VertexKind::Bottom;
-    events[count] = {at, v, chains[v], isMinimum && hints ? edgeNear(v) : kNone, kind};
+    const uint32_t near = isMinimum && hints                 ? edgeNear(v)
+                          : kind == VertexKind::LeftBank  ? linked.prev[v]
+                          : kind == VertexKind::RightBank ? linked.next[v]
+                                                          : kNone;
+    events[count] = {at, v, chains[v], near, kind};
     count += kind != VertexKind::Unused;
     least.x = std::min(least.x, at.x), greatest.x = std::max(greatest.x, at.x);
     least.y = std::min(least.y, at.y), greatest.y = std::max(greatest.y, at.y);
@@ -190,6 +194,7 @@ void State::sortEvents(double least, double greatest) {
   }
   double sum = 0;
   for (Layer& layer : layers) layer.below = sum, sum += layer.count;
+  if (count > kFarApart) groupByLayer(least, scale);
   buckets.assign(count + 2, 0);
   for (size_t i = 0; i < count; ++i) {
     const Layer& layer = layers[places[i]];
@@ -216,11 +221,20 @@ void State::sortEvents(double least, double greatest) {
   }
 }
 
+/// Moves the events of a layer together, so that where they go from there is not far.
+void State::groupByLayer(double least, double scale) {
+  buckets.assign(layers.size(), 0);
+  for (size_t i = 0; i < layers.size(); ++i) buckets[i] = uint32_t(layers[i].below);
+  unsorted.resize(events.size());
+  for (size_t i = 0; i < events.size(); ++i) unsorted[buckets[places[i]]++] = events[i];
+  unsorted.swap(events);
+  for (size_t i = 0; i < events.size(); ++i)
+    places[i] = uint32_t((events[i].at.y - least) * scale);
+}
+
 /// Reads what the next events will need, without waiting for any of it: so the delays of memory
 /// overlap, which one after the other would take most of the time for large polygons.
 void State::touchAhead(size_t i, size_t end) {
-  const uint32_t* next = loops->next.data();
-  const uint32_t* prev = loops->prev.data();
   const auto touchEdge = [&](uint32_t e) {
     if (e < edges.capacity()) touched += edges[e].lower;
   };
@@ -230,13 +244,11 @@ void State::touchAhead(size_t i, size_t end) {
     uint32_t e = event.edge;
     switch (event.kind) {
       case VertexKind::LeftBank:
-        touched += loops->at[prev[v]].x > 0;
-        break;
       case VertexKind::RightBank:
-        touched += loops->at[next[v]].x > 0;
+        touched += loops->at[event.near].x > 0;
         break;
       case VertexKind::Bottom:
-        touched += loops->at[prev[v]].x + loops->at[next[v]].x > 0;
+        touched += loops->at[loops->prev[v]].x + loops->at[loops->next[v]].x > 0;
         touchEdge(e);
         e = event.near;
         break;
@@ -307,7 +319,9 @@ bool State::passMonotone(const Event& event, bool down) {
   if (left != kNone && !(side(left, event.at) < 0)) return false;
   if (right != kNone && !(side(right, event.at) > 0)) return false;
   if (!sagsOnly) see(v, down ? kNone : left, down ? right : kNone);
-  const uint32_t upper = (down ? loops->prev : loops->next)[v];
+  // Links to what is above the sweep line are as they were.
+  const uint32_t upper = event.near;
+  SF_ASSERT(upper == (down ? loops->prev : loops->next)[v]);
   set(e, v, upper, down ? upper : v, down);
   return true;
 }

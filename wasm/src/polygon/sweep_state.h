@@ -14,7 +14,8 @@ struct SweepState {
     Point2 at;
     uint32_t node;
     uint32_t edge;    // the record of a chain (`chains`) that the node is on
-    uint32_t near;    // of a local minimum: that of an edge which will not be far from it, or kNone
+    uint32_t near;    // of a local minimum: the record of an edge which will not be far from it, or
+                      // kNone; on a bank: the node to which the link up leads
     VertexKind kind;  // as the two edges alone tell
   };
   /// One of the edges at a point where loops touch: `other` is the node at its other end, `node`
@@ -63,6 +64,7 @@ struct SweepState {
   uint32_t edgeNear(uint32_t v) const;
   void sortEvents(double least, double greatest);
   void sweep(Work& work);
+  void groupByLayer(double least, double scale);
   void touchAhead(size_t i, size_t end);
   /// Handles event i, with those after it that are at the same point; returns how many, 0 after a
   /// crossing.
