@@ -20,14 +20,15 @@ constexpr size_t kPerVertex = 6;
 constexpr size_t kPerVertexAndBridge = 4;
 /// By how much of the least cost the surfaces of those triangles may be dearer.
 constexpr double kDearer = 0.05, kDearerWithBridge = 0.4;
-/// Of the bridges tried, those whose triangles are taken: by cost, of all and of the valid ones.
-constexpr size_t kTaken = 8;
+/// Of the bridges tried, those whose triangles are taken: by cost, of all and of the valid ones. At
+/// least so many, and one for so many vertices.
+constexpr size_t kTaken = 8, kVerticesPerTaken = 5;
 /// The same for a bridge of two loops without angles.
 constexpr size_t kPlainPerVertex = 2;
 constexpr double kPlainDearer = 0.1;
 /// Vertices for each bridge that is tried: of a surface, and of short ones in two directions.
 constexpr uint32_t kVerticesPerBridge = 4, kVerticesPerShortBridge = 3;
-constexpr uint32_t kLeastBridges = 10, kMostBridges = 12;
+constexpr uint32_t kLeastBridges = 10, kMostBridges = 16;
 /// Vertices beyond which the chart of one loop is too dear, and the solution of two loops over triangles
 /// from several charts.
 constexpr uint32_t kMostVertices = 4000, kMostOfTwoLoops = 120;
@@ -209,10 +210,11 @@ bool BridgeSearch::run(ArrayView<const uint32_t> surface, std::vector<uint32_t>&
     return trials_[a].cost < trials_[b].cost || (trials_[a].cost == trials_[b].cost && a < b);
   });
   // The cheapest of all, and the cheapest that are surfaces.
+  const size_t taken = std::max<size_t>(kTaken, loops_.vertexCount() / kVerticesPerTaken);
   size_t all = 0, valid = 0;
   for (const uint32_t q : byCost) {
     const Trial& trial = trials_[q];
-    if (all++ < kTaken || (trial.isValid && valid < kTaken))
+    if (all++ < taken || (trial.isValid && valid < taken))
       triples.insert(triples.end(), trial.triples.begin(), trial.triples.end());
     valid += trial.isValid;
   }

@@ -29,7 +29,7 @@ bool hasNearOptimalTriples(const LoopSet& loops, const Work& work);
 ///   weights  without own weights
 ///   surface  [3m] of two loops, wound alike: the bridges tried are some of its edges. Empty: none is
 ///            known, the bridges are short. Not read for one loop or without angles.
-/// O(n^2) segments of a polygon, each about a third of a microsecond; up to 24 such polygons for two
+/// O(n^2) segments of a polygon, each about a third of a microsecond; up to 32 such polygons for two
 /// loops.
 bool nearOptimalTriples(const LoopSet& loops, const TriangleWeights& weights,
                         ArrayView<const uint32_t> surface, Work& work,

@@ -33,6 +33,9 @@ constexpr uint32_t kFirstReach = 8, kLastReach = 64;
 constexpr double kMostNear = 4e6;
 /// Times that the `near` space of two loops is enlarged around its optimum, at most.
 constexpr uint32_t kNearRounds = 3;
+/// Vertices beyond which candidates of earlier rounds stay: it takes half the time again, and where all
+/// triples would take a second finds a surface within 1.02 of their optimum in 19 of 20 cases, not 18.
+constexpr uint32_t kKeepNear = 40;
 
 Outcome checkOptions(const LoopSet& loops, const SpanOptions& options) {
   const double weights[] = {options.areaWeight, options.perimeterWeight, options.dihedralWeight};
@@ -358,7 +361,8 @@ class Spanning {
       if (!outcome.ok()) return outcome;
       const bool isBetter = round == 0 || result_.cost < before - 1e-9 * std::fabs(before);
       if (isDone || !isBetter || round == kNearRounds) return {};
-      list = result_.triangles;
+      if (unit_.vertexCount() <= kKeepNear) list.clear();
+      list.insert(list.end(), result_.triangles.begin(), result_.triangles.end());
       beginSpace(Space::Near);
     }
   }
