@@ -15,7 +15,7 @@ import {
   type Span,
   type SpanOptions,
 } from 'soapfilm';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { afterAll, beforeAll, describe, expect, test, vi } from 'vitest';
 import { errorOf, rejectionOf } from '../support/errors.js';
 import { Fault, faultyCore } from '../support/faulty_core.js';
 
@@ -100,10 +100,21 @@ describe('traps', () => {
     expect(calls()).toBe(1);
   });
 
-  test('an instance that has grown large: not kept', () => {
-    expect(calls()).toBeGreaterThan(0);
-    provoke(Fault.growMemory);
-    expect(calls()).toBe(1);
+  test('an instance that has grown large: kept for calls in a row, given up when idle', () => {
+    vi.useFakeTimers();
+    try {
+      const before = calls();
+      provoke(Fault.growMemory);
+      expect(calls()).toBeGreaterThan(before);
+      vi.advanceTimersByTime(900);
+      const later = calls();
+      vi.advanceTimersByTime(900);
+      expect(calls()).toBeGreaterThan(later);
+      vi.advanceTimersByTime(1100);
+      expect(calls()).toBe(1);
+    } finally {
+      vi.useRealTimers();
+    }
   });
 });
 

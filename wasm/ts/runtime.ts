@@ -54,8 +54,12 @@ export const shared: Readonly<Record<Part, Home>> = {
 };
 
 const kProgressMs = 30;
-/** WebAssembly memory never shrinks: an instance that has grown past this is not kept. */
+/**
+ * WebAssembly memory never shrinks: an instance that has grown past this is given up once it has been
+ * idle for a while. Not at once: large work often comes in a row, and growing anew takes its time.
+ */
 const kKeepBytes = 256 * 2 ** 20;
+const kIdleMs = 1000;
 /** Dying instances that cannot grow by this many 64 KiB pages have run out of memory. */
 const kProbePages = 1024;
 
@@ -206,9 +210,23 @@ export function callCore<const T extends readonly ArrayType[]>(
     throw trapped(error, home);
   } finally {
     run = undefined;
-    const { core } = shared[home.part];
-    if (core && core.memory.buffer.byteLength > kKeepBytes) shared[home.part].core = undefined;
+    giveUpWhenIdle(home.part);
   }
+}
+
+const idle: Partial<Record<Part, ReturnType<typeof setTimeout>>> = {};
+
+/** Lets a large shared instance go after a while without calls. */
+function giveUpWhenIdle(part: Part): void {
+  clearTimeout(idle[part]);
+  const { core } = shared[part];
+  if (!core || core.memory.buffer.byteLength <= kKeepBytes) return;
+  const timer = setTimeout(() => {
+    if (shared[part].core === core) shared[part].core = undefined;
+  }, kIdleMs);
+  // Node is not to wait for it.
+  (timer as { unref?: () => void }).unref?.();
+  idle[part] = timer;
 }
 
 function notLoaded(part: Part): SoapfilmError {
