@@ -194,7 +194,6 @@ void State::sortEvents(double least, double greatest) {
   }
   double sum = 0;
   for (Layer& layer : layers) layer.below = sum, sum += layer.count;
-  if (count > kFarApart) groupByLayer(least, scale);
   buckets.assign(count + 2, 0);
   for (size_t i = 0; i < count; ++i) {
     const Layer& layer = layers[places[i]];
@@ -219,17 +218,6 @@ void State::sortEvents(double least, double greatest) {
     while (--place > 0 && isBelow(event, events[place - 1]));
     events[place] = event;
   }
-}
-
-/// Moves the events of a layer together, so that where they go from there is not far.
-void State::groupByLayer(double least, double scale) {
-  buckets.assign(layers.size(), 0);
-  for (size_t i = 0; i < layers.size(); ++i) buckets[i] = uint32_t(layers[i].below);
-  unsorted.resize(events.size());
-  for (size_t i = 0; i < events.size(); ++i) unsorted[buckets[places[i]]++] = events[i];
-  unsorted.swap(events);
-  for (size_t i = 0; i < events.size(); ++i)
-    places[i] = uint32_t((events[i].at.y - least) * scale);
 }
 
 /// Reads what the next events will need, without waiting for any of it: so the delays of memory

@@ -64,7 +64,6 @@ struct SweepState {
   uint32_t edgeNear(uint32_t v) const;
   void sortEvents(double least, double greatest);
   void sweep(Work& work);
-  void groupByLayer(double least, double scale);
   void touchAhead(size_t i, size_t end);
   /// Handles event i, with those after it that are at the same point; returns how many, 0 after a
   /// crossing.
