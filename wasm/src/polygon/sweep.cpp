@@ -116,7 +116,7 @@ bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility&
     const VertexKind kind = linked.kind[v];
     const Point2 at = linked.at[v];
     const bool isMinimum = kind == VertexKind::Bottom;
-    const uint32_t near = isMinimum && hints                 ? edgeNear(v)
+    const uint32_t near = isMinimum && hints              ? edgeNear(v)
                           : kind == VertexKind::LeftBank  ? linked.prev[v]
                           : kind == VertexKind::RightBank ? linked.next[v]
                                                           : kNone;
