@@ -189,7 +189,9 @@ export function optimality({ weight, interiorEdges, all, ...spaces }, space) {
 export function optimalityLines(suites) {
   const words = ['least', '5 %', 'median', '95 %', 'most', 'none'].map((word) => right(word, 8));
   const lines = [`${left('optimality against all triples', kCaseWidth)} ${words.join('')}`];
-  for (const [kind, rows] of Object.entries(suites)) {
+  const { single, pairs, 'larger pairs': larger } = suites;
+  const shown = { single, 'all pairs': [...pairs, ...larger], pairs, 'larger pairs': larger };
+  for (const [kind, rows] of Object.entries(shown)) {
     for (const weight of ['area', 'dihedral']) {
       const chosen = rows.filter((r) => r.weight === weight);
       for (const space of ['delaunay', 'near']) {
@@ -212,7 +214,9 @@ export function nearLines(suites) {
   const words = ['loops', '≤ 1.02', '95 %', 'most', 'time'].map((word) => right(word, 8));
   const lines = [`${left('near against all triples', kCaseWidth)} ${words.join('')}`];
   const sum = (rows, space) => rows.reduce((total, r) => total + r[space].seconds, 0);
-  for (const [kind, rows] of Object.entries(suites)) {
+  const { single, pairs, 'larger pairs': larger } = suites;
+  const shown = { single, 'all pairs': [...pairs, ...larger], pairs, 'larger pairs': larger };
+  for (const [kind, rows] of Object.entries(shown)) {
     for (const weight of [...new Set(rows.map((r) => r.weight))]) {
       const chosen = rows.filter((r) => r.weight === weight);
       const ratios = chosen.map(({ near, all }) => (near.cost ?? Infinity) / all.cost);
@@ -222,8 +226,10 @@ export function nearLines(suites) {
       const [most, all] = [0.95, 1].map((share) => quantile(ratios, share).toFixed(4));
       const cells = [chosen.length, percent(good), most, all, percent(spent)];
       const isMet = good >= kNearGoal.share && spent <= kNearGoal.time;
-      const shown = cells.map((cell) => right(cell, 8)).join('');
-      lines.push(`${left(`${kind} ${weight}`, kCaseWidth)} ${shown}  ${verdict(isMet)}`);
+      const line = cells.map((cell) => right(cell, 8)).join('');
+      // The goal is for pairs of all sizes: small ones take little time either way.
+      const isPart = rows === pairs || rows === larger;
+      lines.push(`${left(`${kind} ${weight}`, kCaseWidth)} ${line}${isPart ? '' : `  ${verdict(isMet)}`}`);
     }
   }
   return lines;

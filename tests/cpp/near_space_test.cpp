@@ -237,6 +237,7 @@ TEST_CASE("near space: the work ends when told to") {
   const auto stop = [](void*, double, double, double) { return false; };
   Work work(size_t(1) << 30, stop, nullptr);
   std::vector<uint32_t> triples;
-  CHECK_FALSE(nearOptimalTriples(loops, weights, {}, work, triples));
+  std::vector<BridgeTrial> trials;
+  CHECK_FALSE(nearOptimalTriples(loops, weights, {}, work, trials, triples));
   CHECK(work.status() == Status::Stopped);
 }

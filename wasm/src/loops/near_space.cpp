@@ -98,18 +98,12 @@ void append(const Corners& corners, const std::vector<PolygonChart::Triangle>& f
     for (const uint32_t c : t.corner) triples.push_back(corners[c].vertex);
 }
 
-/// What one bridge gave.
-struct Trial {
-  bool isValid;
-  double cost;
-  std::vector<uint32_t> triples;
-};
-
 /// Two loops as one polygon, for one bridge after the other.
 class BridgeSearch {
  public:
-  BridgeSearch(const LoopSet& loops, const TriangleWeights& weights, Work& work)
-      : loops_(loops), weights_(weights), chart_(loops, weights, work) {}
+  BridgeSearch(const LoopSet& loops, const TriangleWeights& weights, Work& work,
+               std::vector<BridgeTrial>& trials)
+      : loops_(loops), weights_(weights), chart_(loops, weights, work), trials_(trials) {}
 
   /// Tries bridges of a surface, or if there is none, short ones. Appends what they give.
   bool run(ArrayView<const uint32_t> surface, std::vector<uint32_t>& triples);
@@ -123,7 +117,7 @@ class BridgeSearch {
   const LoopSet& loops_;
   const TriangleWeights& weights_;
   PolygonChart chart_;
-  std::vector<Trial> trials_;
+  std::vector<BridgeTrial>& trials_;
   std::vector<std::pair<uint32_t, uint32_t>> edges_;  // scratch
 };
 
@@ -165,14 +159,15 @@ double BridgeSearch::angleAtBridge(const Corners& corners,
 bool BridgeSearch::attempt(const Bridge& bridge) {
   const Corners corners = joined(loops_, weights_, bridge);
   if (!chart_.compute(corners)) return false;
-  Trial trial{false, chart_.best(), {}};
-  if (trial.cost == kInfinity) return true;
-  std::vector<PolygonChart::Triangle> found;
-  chart_.trace(found);
-  trial.isValid = isValid(corners, found);
-  trial.cost += angleAtBridge(corners, found);
-  chart_.nearBest(kDearerWithBridge * chart_.best(), kPerVertexAndBridge * corners.size(), found);
-  append(corners, found, trial.triples);
+  BridgeTrial trial{bridge.a, bridge.b, bridge.forward, false, chart_.best(), {}};
+  if (trial.cost < kInfinity) {
+    std::vector<PolygonChart::Triangle> found;
+    chart_.trace(found);
+    trial.isValid = isValid(corners, found);
+    trial.cost += angleAtBridge(corners, found);
+    chart_.nearBest(kDearerWithBridge * chart_.best(), kPerVertexAndBridge * corners.size(), found);
+    append(corners, found, trial.triples);
+  }
   trials_.push_back(std::move(trial));
   return true;
 }
@@ -202,10 +197,14 @@ std::vector<Bridge> bridgesOf(const LoopSet& loops, ArrayView<const uint32_t> su
 }
 
 bool BridgeSearch::run(ArrayView<const uint32_t> surface, std::vector<uint32_t>& triples) {
-  for (const Bridge& bridge : surface.empty() ? shortBridges(loops_) : bridgesOf(loops_, surface))
-    if (!attempt(bridge)) return false;
-  std::vector<uint32_t> byCost(trials_.size());
-  std::iota(byCost.begin(), byCost.end(), 0u);
+  std::vector<uint32_t> byCost;
+  for (const Bridge& bridge : surface.empty() ? shortBridges(loops_) : bridgesOf(loops_, surface)) {
+    const auto known = std::find_if(trials_.begin(), trials_.end(), [&](const BridgeTrial& trial) {
+      return trial.a == bridge.a && trial.b == bridge.b && trial.forward == bridge.forward;
+    });
+    byCost.push_back(uint32_t(known - trials_.begin()));
+    if (known == trials_.end() && !attempt(bridge)) return false;
+  }
   sf::sort(byCost.begin(), byCost.end(), [&](uint32_t a, uint32_t b) {
     return trials_[a].cost < trials_[b].cost || (trials_[a].cost == trials_[b].cost && a < b);
   });
@@ -213,7 +212,7 @@ bool BridgeSearch::run(ArrayView<const uint32_t> surface, std::vector<uint32_t>&
   const size_t taken = std::max<size_t>(kTaken, loops_.vertexCount() / kVerticesPerTaken);
   size_t all = 0, valid = 0;
   for (const uint32_t q : byCost) {
-    const Trial& trial = trials_[q];
+    const BridgeTrial& trial = trials_[q];
     if (all++ < taken || (trial.isValid && valid < taken))
       triples.insert(triples.end(), trial.triples.begin(), trial.triples.end());
     valid += trial.isValid;
@@ -261,10 +260,11 @@ bool hasNearOptimalTriples(const LoopSet& loops, const Work& work) {
 
 bool nearOptimalTriples(const LoopSet& loops, const TriangleWeights& weights,
                         ArrayView<const uint32_t> surface, Work& work,
-                        std::vector<uint32_t>& triples) {
+                        std::vector<BridgeTrial>& trials, std::vector<uint32_t>& triples) {
   if (loops.loopCount() == 2 && weights.dihedral == 0)
     return plainTriples(loops, weights, work, triples);
-  if (loops.loopCount() == 2) return BridgeSearch(loops, weights, work).run(surface, triples);
+  if (loops.loopCount() == 2)
+    return BridgeSearch(loops, weights, work, trials).run(surface, triples);
   Corners corners;
   walk(loops, weights, 0, true, false, corners);
   PolygonChart chart(loops, weights, work);

@@ -23,16 +23,26 @@ namespace sf {
 /// that fit into memory.
 bool hasNearOptimalTriples(const LoopSet& loops, const Work& work);
 
+/// What the polygon gave that two loops cut along a bridge are.
+struct BridgeTrial {
+  uint32_t a, b;  // the bridge's ends on the first loop and the second
+  bool forward;   // the second loop is passed forward
+  bool isValid;   // the polygon's surface is one of the loops
+  double cost;    // infinity: it has none
+  std::vector<uint32_t> triples;
+};
+
 /// Appends triples of surfaces near the best one found: at most six for each vertex of one loop,
 /// and four for each vertex and bridge of two. In any order, perhaps collinear or repeated, as facetTriples
 /// takes them. False when the work ended.
 ///   weights  without own weights
 ///   surface  [3m] of two loops, wound alike: the bridges tried are some of its edges. Empty: none is
 ///            known, the bridges are short. Not read for one loop or without angles.
+///   trials   of earlier calls for the same loops and weights, which are not made again; new ones are added
 /// O(n^2) segments of a polygon, each about a third of a microsecond; up to 32 such polygons for two
 /// loops.
 bool nearOptimalTriples(const LoopSet& loops, const TriangleWeights& weights,
                         ArrayView<const uint32_t> surface, Work& work,
-                        std::vector<uint32_t>& triples);
+                        std::vector<BridgeTrial>& trials, std::vector<uint32_t>& triples);
 
 }  // namespace sf

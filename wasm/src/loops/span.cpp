@@ -344,12 +344,14 @@ class Spanning {
     // A small sum of angles goes with small ones.
     if (options_.objective == Objective::WorstDihedral) weights.dihedral = 1;
     const bool isDone = loops_.loopCount() == 1 || weights.dihedral == 0;
+    std::vector<BridgeTrial> trials;
     for (uint32_t round = 0;; ++round) {
       std::vector<uint32_t> triples;
       Span last;
       if (options_.bestSoFar) last = result_;
-      const bool chosen = nearOptimalTriples(unit_, weights, result_.triangles, work_, list) &&
-                          facetTriples(unit_, list, work_, triples);
+      const bool chosen =
+          nearOptimalTriples(unit_, weights, result_.triangles, work_, trials, list) &&
+          facetTriples(unit_, list, work_, triples);
       const double before = result_.cost;
       const Outcome outcome =
           chosen ? solve(problem, std::move(triples), {}) : Outcome{work_.status()};
