@@ -189,9 +189,7 @@ export function optimality({ weight, interiorEdges, all, ...spaces }, space) {
 export function optimalityLines(suites) {
   const words = ['least', '5 %', 'median', '95 %', 'most', 'none'].map((word) => right(word, 8));
   const lines = [`${left('optimality against all triples', kCaseWidth)} ${words.join('')}`];
-  const { single, pairs, 'larger pairs': larger } = suites;
-  const shown = { single, 'all pairs': [...pairs, ...larger], pairs, 'larger pairs': larger };
-  for (const [kind, rows] of Object.entries(shown)) {
+  for (const [kind, rows] of Object.entries(suites)) {
     for (const weight of ['area', 'dihedral']) {
       const chosen = rows.filter((r) => r.weight === weight);
       for (const space of ['delaunay', 'near']) {
