@@ -213,7 +213,7 @@ describe('spanLoops', () => {
 
   test('progress: rises from 0 to 1 at most, its bound never over the optimum', () => {
     const seen: [number, number, number][] = [];
-    const result = span(regularSaddles(3, 5, new Random(13)), {
+    const result = span(regularSaddles(2, 20, new Random(13)), {
       weights: { dihedral: 1 },
       candidates: 'all',
       onProgress: (...report) => seen.push(report),

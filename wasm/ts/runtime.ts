@@ -32,6 +32,11 @@ export interface Watch<T extends readonly ArrayType[]> {
   readonly explain?: ((status: number, where: Uint32Array) => SoapfilmError) | undefined;
 }
 
+/** What setTimeout gives, in Node an object. */
+interface Timer {
+  unref?: () => void;
+}
+
 /**
  * An instance of a part, made when it is first called, in which calls leave something for later ones.
  * It stays until it traps: then all that was in it is lost.
@@ -40,6 +45,8 @@ export class Home {
   /** @internal */
   core: Core | undefined;
   lost = false;
+  /** @internal */
+  idle?: Timer;
   readonly part: Part;
 
   constructor(part: Part) {
@@ -183,11 +190,11 @@ export function callCore<const T extends readonly ArrayType[]>(
   watch: Watch<T> = {},
 ): { readonly found: boolean; readonly arrays: Arrays<T> } {
   if (run) {
-    throw new SoapfilmError('bad-option', 'soapfilm cannot be called from within `onProgress`');
+    throw new SoapfilmError('bad-option', 'No calls from within `onProgress`');
   }
   const module = modules[home.part];
   if (!module) throw notLoaded(home.part);
-  if (home.lost) throw new SoapfilmError('crashed', 'What this call is about was lost in a crash');
+  if (home.lost) throw new SoapfilmError('crashed', 'It was lost in a crash');
   const now = performance.now();
   const hear = (handle: number): void => {
     if (home.core) watch.onResult?.(readArrays(home.core, handle, types));
@@ -210,30 +217,24 @@ export function callCore<const T extends readonly ArrayType[]>(
     throw trapped(error, home);
   } finally {
     run = undefined;
-    giveUpWhenIdle(home.part);
+    giveUpWhenIdle(shared[home.part]);
   }
 }
 
-const idle: Partial<Record<Part, ReturnType<typeof setTimeout>>> = {};
-
-/** Lets a large shared instance go after a while without calls. */
-function giveUpWhenIdle(part: Part): void {
-  clearTimeout(idle[part]);
-  const { core } = shared[part];
-  if (!core || core.memory.buffer.byteLength <= kKeepBytes) return;
-  const timer = setTimeout(() => {
-    if (shared[part].core === core) shared[part].core = undefined;
-  }, kIdleMs);
-  // Node is not to wait for it.
-  (timer as { unref?: () => void }).unref?.();
-  idle[part] = timer;
+/** Lets a large shared instance go after a while without calls. Node does not wait for that. */
+function giveUpWhenIdle(home: Home): void {
+  clearTimeout(home.idle as unknown as number);
+  if (home.core && home.core.memory.buffer.byteLength > kKeepBytes) {
+    home.idle = setTimeout(() => (home.core = undefined), kIdleMs) as unknown as Timer;
+    home.idle.unref?.();
+  }
 }
 
 function notLoaded(part: Part): SoapfilmError {
   return new SoapfilmError(
     'not-loaded',
     Object.keys(modules).length === 0
-      ? 'Call `await load()` once before any other function'
+      ? 'Call `await load()` first'
       : `The part '${part}' is not loaded: name it in \`parts\` of \`load\` or \`createWorker\``,
   );
 }

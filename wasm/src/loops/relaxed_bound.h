@@ -81,22 +81,23 @@ class RelaxedBound final : public LowerBound {
     return holes_.size() < 64 ? (uint64_t(1) << holes_.size()) - 1 : ~uint64_t(0);
   }
   uint32_t pairOf(uint32_t u, uint32_t v) const;
-  Front insertFront(Segment first, Segment last, uint32_t edge);
-  Front insertFront(Shape shape);
-  Front frontOf(uint32_t context, Whole whole, Segment first, uint32_t edge);
+  // Out of line where the room of a copy in each place is worth more than its time.
+  [[gnu::noinline]] Front insertFront(Segment first, Segment last, uint32_t edge);
+  [[gnu::noinline]] Front insertFront(Shape shape);
+  [[gnu::noinline]] Front frontOf(uint32_t context, Whole whole, Segment first, uint32_t edge);
   static Whole wholeOf(Segment first, Segment last) {
     return (first.whole ? kWholeFirst : 0) | (last.whole ? kWholeLast : 0);
   }
   double*& valuesOf(Front front) { return blocks_[front.block].values[front.number]; }
   bool open(Front front);
   uint32_t readDomain(Front front);
-  bool splitAtHole(uint32_t slot, uint32_t loop);
+  [[gnu::noinline]] bool splitAtHole(uint32_t slot, uint32_t loop);
   bool splitAtBoundary(uint32_t slot, uint32_t segment);
   bool splitWith(uint32_t slot, const Part part[2]);
-  bool distribute(uint32_t slot, const Part part[2], uint64_t toFirst);
+  [[gnu::noinline]] bool distribute(uint32_t slot, const Part part[2], uint64_t toFirst);
   bool isFilled(const Part& part, uint32_t t, bool hasHoles, double& cost, bool& isDomain) const;
   Front frontOfPart(const Part& part, uint32_t t, uint64_t holes);
-  bool addEntry(const Entry& entry);
+  [[gnu::noinline]] bool addEntry(const Entry& entry);
   bool close(const Frame& frame);
 
   const Pass& pass_;

@@ -1,7 +1,7 @@
 #include "loops/two_loop_bound.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "base/sort.h"
 
@@ -37,15 +37,16 @@ double TwoLoopBound::segmentValue(uint32_t t, uint32_t opposite, uint32_t start,
 
 void TwoLoopBound::findSpanningEdges() {
   const CandidateSet& set = pass_.set;
+  std::vector<std::pair<uint32_t, uint32_t>> ends;  // place and number
   for (uint32_t e = 0; e < set.edgeCount(); ++e) {
     uint32_t u = set.edgeVertices[2 * size_t(e)], v = set.edgeVertices[2 * size_t(e) + 1];
     if (isOnA(u) == isOnA(v)) continue;
     if (isOnA(v)) std::swap(u, v);
-    spans_.push_back({e, placeOf(u), v - firstB_, 0, 0});
+    ends.push_back({placeOf(u), v - firstB_});
   }
-  sf::sort(spans_.begin(), spans_.end(), [](const SpanningEdge& x, const SpanningEdge& y) {
-    return x.place != y.place ? x.place < y.place : x.number < y.number;
-  });
+  sf::sort(ends.begin(), ends.end());
+  for (const auto& [place, number] : ends)
+    spans_.push_back({set.edgeBetween(vertexA(place), firstB_ + number), place, number, 0, 0});
   firstSpan_.assign(sizeA_ + 1, 0);
   columnSize_.assign(sizeB_, 0);
   uint32_t incidences = 0;
@@ -170,21 +171,17 @@ bool TwoLoopBound::computeContext(Context& c) {
 /// The edges between vertices of A, short runs first, the root last.
 std::vector<uint32_t> TwoLoopBound::chordsByLength() const {
   const CandidateSet& set = pass_.set;
-  const auto length = [&](uint32_t e) {
-    const uint32_t x = placeOf(set.edgeVertices[2 * size_t(e)]);
-    const uint32_t y = placeOf(set.edgeVertices[2 * size_t(e) + 1]);
-    return x < y ? y - x : x - y;
-  };
+  std::vector<std::pair<uint32_t, uint32_t>> byLength;
+  for (uint32_t e = 0; e < set.edgeCount(); ++e) {
+    const uint32_t u = set.edgeVertices[2 * size_t(e)], v = set.edgeVertices[2 * size_t(e) + 1];
+    if (!isOnA(u) || !isOnA(v)) continue;
+    const uint32_t x = placeOf(u), y = placeOf(v), length = x < y ? y - x : x - y;
+    // Only at the root may a loop edge close more than itself.
+    if (!set.isLoopEdge[e] || length + 1 == sizeA_) byLength.push_back({length, e});
+  }
+  sf::sort(byLength.begin(), byLength.end());
   std::vector<uint32_t> chords;
-  for (uint32_t e = 0; e < set.edgeCount(); ++e)
-    if (isOnA(set.edgeVertices[2 * size_t(e)]) && isOnA(set.edgeVertices[2 * size_t(e) + 1]) &&
-        // Only at the root may a loop edge close more than itself.
-        (!set.isLoopEdge[e] || length(e) + 1 == sizeA_))
-      chords.push_back(e);
-  sf::sort(chords.begin(), chords.end(), [&](uint32_t e, uint32_t f) {
-    const uint32_t x = length(e), y = length(f);
-    return x != y ? x < y : e < f;
-  });
+  for (const auto& [length, e] : byLength) chords.push_back(e);
   return chords;
 }
 
