@@ -32,11 +32,6 @@ export interface Watch<T extends readonly ArrayType[]> {
   readonly explain?: ((status: number, where: Uint32Array) => SoapfilmError) | undefined;
 }
 
-/** What setTimeout gives, in Node an object. */
-interface Timer {
-  unref?: () => void;
-}
-
 /**
  * An instance of a part, made when it is first called, in which calls leave something for later ones.
  * It stays until it traps: then all that was in it is lost.
@@ -46,7 +41,7 @@ export class Home {
   core: Core | undefined;
   lost = false;
   /** @internal */
-  idle?: Timer;
+  idle?: ReturnType<typeof setTimeout>;
   readonly part: Part;
 
   constructor(part: Part) {
@@ -223,10 +218,10 @@ export function callCore<const T extends readonly ArrayType[]>(
 
 /** Lets a large shared instance go after a while without calls. Node does not wait for that. */
 function giveUpWhenIdle(home: Home): void {
-  clearTimeout(home.idle as unknown as number);
+  clearTimeout(home.idle);
   if (home.core && home.core.memory.buffer.byteLength > kKeepBytes) {
-    home.idle = setTimeout(() => (home.core = undefined), kIdleMs) as unknown as Timer;
-    home.idle.unref?.();
+    home.idle = setTimeout(() => (home.core = undefined), kIdleMs);
+    (home.idle as { unref?: () => void }).unref?.();
   }
 }
 
