@@ -26,6 +26,7 @@ constexpr size_t kTaken = 8, kVerticesPerTaken = 5;
 /// The same for a bridge of two loops without angles.
 constexpr size_t kPlainPerVertex = 2;
 constexpr double kPlainDearer = 0.1;
+constexpr uint32_t kPlainBridges = 6;
 /// Vertices for each bridge that is tried: of a surface, and of short ones in two directions.
 constexpr uint32_t kVerticesPerBridge = 4, kVerticesPerShortBridge = 3;
 constexpr uint32_t kLeastBridges = 10, kMostBridges = 16;
@@ -72,9 +73,7 @@ uint32_t nearestOf(const LoopSet& loops, uint32_t vertex, uint32_t loop) {
 }
 
 /// From some vertices of the first loop to the nearest of the second, in both directions.
-std::vector<Bridge> shortBridges(const LoopSet& loops) {
-  const uint32_t count =
-      std::clamp(loops.vertexCount() / kVerticesPerShortBridge, kLeastBridges, kMostBridges);
+std::vector<Bridge> shortBridges(const LoopSet& loops, uint32_t count) {
   std::vector<Bridge> bridges;
   for (uint32_t q = 0; q < count; ++q) {
     const uint32_t a = loops.first(0) + uint32_t(uint64_t(q) * loops.size(0) / count);
@@ -198,7 +197,10 @@ std::vector<Bridge> bridgesOf(const LoopSet& loops, ArrayView<const uint32_t> su
 
 bool BridgeSearch::run(ArrayView<const uint32_t> surface, std::vector<uint32_t>& triples) {
   std::vector<uint32_t> byCost;
-  for (const Bridge& bridge : surface.empty() ? shortBridges(loops_) : bridgesOf(loops_, surface)) {
+  const uint32_t count =
+      std::clamp(loops_.vertexCount() / kVerticesPerShortBridge, kLeastBridges, kMostBridges);
+  for (const Bridge& bridge :
+       surface.empty() ? shortBridges(loops_, count) : bridgesOf(loops_, surface)) {
     const auto known = std::find_if(trials_.begin(), trials_.end(), [&](const BridgeTrial& trial) {
       return trial.a == bridge.a && trial.b == bridge.b && trial.forward == bridge.forward;
     });
@@ -231,7 +233,7 @@ bool plainTriples(const LoopSet& loops, const TriangleWeights& weights, Work& wo
   if (!work.tick(n * n * n) || !neckTriples(loops, table, work, triples)) return false;
   std::vector<std::pair<double, std::vector<uint32_t>>> trials;
   PlainPolygon polygon(loops, table);
-  for (const Bridge& bridge : shortBridges(loops)) {
+  for (const Bridge& bridge : shortBridges(loops, kPlainBridges)) {
     std::vector<uint32_t> vertices;
     for (const PolygonChart::Corner& corner : joined(loops, weights, bridge))
       vertices.push_back(corner.vertex);
