@@ -92,8 +92,7 @@ class Domains {
   }
   /// Whether the segment has v, a vertex of any loop.
   bool contains(Segment s, uint32_t v) const;
-  /// In place of an end of a segment, where a key stands for shapes with any vertex there; of every
-  /// other one it differs.
+  /// Stands for an end of a segment in keys of all shapes that differ there alone; no vertex has its number.
   static constexpr uint32_t kAnyVertex = (1u << 30) - 1;
   /// Whether v is an end of one of the segments: the only vertices that weak edges join.
   bool isEnd(Shape d, uint32_t v) const;

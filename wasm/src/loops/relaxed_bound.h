@@ -7,7 +7,9 @@
 // Most triangles move one end of the access edge along a loop and leave everything else as it is. A
 // *context* is a domain's shape but for its access edge, and all domains of one context are its
 // *fronts*: entries of an array over the candidate edges between the two loops that the access edge
-// joins. Only contexts are looked up in a hash table, and few of them.
+// joins. Only contexts are looked up in a hash table, and few of them. The splits are those of
+// Domains::forEachSplit, said again in terms of segments: building the words of every part's shape, to
+// look it up, took most of the time. Tests hold the two together, domain by domain.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -28,7 +30,8 @@ class RelaxedBound final : public LowerBound {
 
   /// Computes R for the root and all that it can split into; false when the work ended, or after
   /// `maxSplits` splits of domains.
-  /// Explicit stack. Memory: one double for each domain shape and triangle on its access edge.
+  /// Explicit stack. Memory: one double for each domain and triangle on its access edge, and a pointer
+  /// for each context and candidate edge between the loops that its access edges join.
   bool compute(ArrayView<const uint32_t> root, uint64_t maxSplits);
 
   double rootBound() const override { return rootBound_; }

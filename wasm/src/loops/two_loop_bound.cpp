@@ -1,7 +1,6 @@
 #include "loops/two_loop_bound.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "base/sort.h"
 
@@ -185,6 +184,12 @@ std::vector<uint32_t> TwoLoopBound::chordsByLength() const {
   return chords;
 }
 
+/// The ends of an edge within A, the one whose place comes first before the other.
+std::pair<uint32_t, uint32_t> TwoLoopBound::endsOf(uint32_t chord) const {
+  const uint32_t* v = &pass_.set.edgeVertices[2 * size_t(chord)];
+  return placeOf(v[0]) < placeOf(v[1]) ? std::make_pair(v[0], v[1]) : std::make_pair(v[1], v[0]);
+}
+
 /// Marks the closing edges that splits of the root lead to; returns how many incidences the
 /// contexts of all of them have.
 uint64_t TwoLoopBound::findContexts(const std::vector<uint32_t>& chords,
@@ -197,9 +202,7 @@ uint64_t TwoLoopBound::findContexts(const std::vector<uint32_t>& chords,
   for (size_t i = chords.size(); i-- > 0;) {
     const uint32_t edge = chords[i];
     if (!reached[edge]) continue;
-    const uint32_t* ends = &set.edgeVertices[2 * size_t(edge)];
-    const bool swap = placeOf(ends[0]) > placeOf(ends[1]);
-    const uint32_t u = ends[swap], v = ends[!swap];
+    const auto [u, v] = endsOf(edge);
     for (uint32_t s = set.edgeSlots[edge]; s < set.edgeSlots[edge + 1]; ++s) {
       const uint32_t t = set.slotTriangle[s], apex = set.slotApex[s];
       if (!isOnA(apex)) {
@@ -229,9 +232,7 @@ void TwoLoopBound::keepStarts(const Context& c) {
 bool TwoLoopBound::computeWithHole(uint32_t chord) {
   const CandidateSet& set = pass_.set;
   const Measure& measure = pass_.measure;
-  const uint32_t* ends = &set.edgeVertices[2 * size_t(chord)];
-  const bool swap = placeOf(ends[0]) > placeOf(ends[1]);
-  const uint32_t u = ends[swap], v = ends[!swap];
+  const auto [u, v] = endsOf(chord);
   const bool root = placeOf(v) - placeOf(u) + 1 == sizeA_;
   size_t inner = 0;
   for (uint32_t s = set.edgeSlots[chord]; s < set.edgeSlots[chord + 1]; ++s) {

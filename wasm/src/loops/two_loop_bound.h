@@ -9,6 +9,7 @@
 // kept; when the exact solver asks for others, their context is computed again.
 #pragma once
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/charge.h"
@@ -76,6 +77,7 @@ class TwoLoopBound final : public LowerBound {
   void findSpanningEdges();
   bool buildIncidences();
   std::vector<uint32_t> chordsByLength() const;
+  std::pair<uint32_t, uint32_t> endsOf(uint32_t chord) const;
   uint64_t findContexts(const std::vector<uint32_t>& chords, std::vector<uint8_t>& wanted) const;
   double segmentValue(uint32_t t, uint32_t opposite, uint32_t start, uint32_t end) const;
   bool computeContext(Context& c);
