@@ -189,7 +189,7 @@ export function callCore<const T extends readonly ArrayType[]>(
   }
   const module = modules[home.part];
   if (!module) throw notLoaded(home.part);
-  if (home.lost) throw new SoapfilmError('crashed', 'It was lost in a crash');
+  if (home.lost) throw new SoapfilmError('crashed', 'The session was lost in a crash');
   const now = performance.now();
   const hear = (handle: number): void => {
     if (home.core) watch.onResult?.(readArrays(home.core, handle, types));
