@@ -73,7 +73,7 @@ sf::Certificate floodedBothWays(const Polygon& polygon, bool& done) {
     triangles.insert(triangles.end(), loops.flat.begin(), loops.flat.end());
     return true;
   };
-  done = take(sweep.run(view, true, work, loops, seen), c.inside, c.insideTwins) &&
+  done = take(sweep.run(view, true, true, work, loops, seen), c.inside, c.insideTwins) &&
          take(sweep.runComplement(view, work, loops, seen), c.complement, c.complementTwins);
   return c;
 }

@@ -26,7 +26,7 @@ struct Flooded {
     sf::Flood flood;
     sf::Work work;
     const sf::PolygonView view{polygon.positions, polygon.starts, points};
-    if (!sweep.run(view, true, work, loops, seen).ok()) return;
+    if (!sweep.run(view, true, true, work, loops, seen).ok()) return;
     done = flood.run(loops, seen, work, triangles, &trace);
     CHECK(work.used() == 0);
   }

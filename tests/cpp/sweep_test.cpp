@@ -24,12 +24,12 @@ struct Swept {
   sf::Visibility seen;
 };
 
-Swept sweepOf(const Polygon& polygon, bool sagsOnly = false,
-              const std::vector<double>& points = {}) {
+Swept sweepOf(const Polygon& polygon, bool sagsOnly = false, const std::vector<double>& points = {},
+              bool mayTurn = false) {
   Swept swept;
   sf::PlaneSweep sweep;
   sf::Work work;
-  swept.outcome = sweep.run({polygon.positions, polygon.starts, points}, sagsOnly, work,
+  swept.outcome = sweep.run({polygon.positions, polygon.starts, points}, sagsOnly, mayTurn, work,
                             swept.loops, swept.seen);
   CHECK(work.used() == 0);
   return swept;
@@ -82,6 +82,37 @@ TEST_CASE("sweep: nodes see what a look at every edge finds") {
     ++compared;
   }
   CHECK(compared > 500);
+}
+
+TEST_CASE(
+    "sweep: turned where that leaves far fewer minima, it is the sweep of the polygon turned") {
+  int turned = 0, compared = 0;
+  for (uint32_t seed = 1; seed <= 600; ++seed) {
+    Random random(seed);
+    const Polygon polygon = rewritten(smallPolygon(random), random);
+    const Swept either = sweepOf(polygon, true, {}, true);
+    Polygon quarter = polygon;
+    for (size_t i = 0; i < quarter.positions.size(); i += 2)
+      quarter.positions[i] = -polygon.positions[i + 1],
+      quarter.positions[i + 1] = polygon.positions[i];
+    const Swept fixed = sweepOf(either.loops.turned ? quarter : polygon, true);
+    INFO("seed ", seed, " ", describe(polygon));
+    REQUIRE(either.outcome.ok());
+    REQUIRE(fixed.outcome.ok());
+    CHECK(!fixed.loops.turned);
+    CHECK(either.loops.at == fixed.loops.at);
+    CHECK((either.loops.kind == fixed.loops.kind));
+    CHECK(either.loops.next == fixed.loops.next);
+    CHECK(either.seen.order == fixed.seen.order);
+    turned += either.loops.turned, ++compared;
+  }
+  MESSAGE(turned, " of ", compared, " turned");
+  CHECK(turned > 60);
+  CHECK(turned < compared - 60);
+
+  Random random(1);
+  CHECK(sweepOf(polygonOf({combRing(50, random)}), true, {}, true).loops.turned);
+  CHECK(!sweepOf(kSquare, true, {}, true).loops.turned);
 }
 
 TEST_CASE("sweep: thousands of edges side by side, where the tree of edges is used") {
@@ -224,8 +255,8 @@ TEST_CASE("sweep: a memory limit ends it, and all that was charged is given back
   sf::PlaneSweep sweep;
   sf::Work work(50000, nullptr, nullptr);
   Swept swept;
-  const sf::Outcome outcome =
-      sweep.run({polygon.positions, polygon.starts, {}}, true, work, swept.loops, swept.seen);
+  const sf::Outcome outcome = sweep.run({polygon.positions, polygon.starts, {}}, true, false, work,
+                                        swept.loops, swept.seen);
   CHECK(int(outcome.status) == int(sf::Status::OutOfMemory));
   CHECK(work.used() == 0);
 }

@@ -253,6 +253,12 @@ int incircle(double ax, double ay, double bx, double by, double cx, double cy, d
   double my = max2(max2(std::fabs(ay - dy), std::fabs(by - dy)), std::fabs(cy - dy));
   double m = max2(mx, my), bound = kIncircleBound * mx * my * m * m;
   if (std::fabs(det) > bound + kTiny) return signOf(det);
+  // 12 bits: a sum of 12 products of four differences stays below 2^53 units, hence has no error.
+  double magic = magicFor(m, 12);
+  if (isMultiple(ax, dx, magic) && isMultiple(ay, dy, magic) && isMultiple(bx, dx, magic) &&
+      isMultiple(by, dy, magic) && isMultiple(cx, dx, magic) && isMultiple(cy, dy, magic) &&
+      m > 0x1p-200)
+    return signOf(det);
   double det2 = incircleIn<InPair>(ax, ay, bx, by, cx, cy, dx, dy).hi;
   if (std::fabs(det2) > kPairOverDouble * bound + kTiny) return signOf(det2);
   return incircleIn<InExpansion>(ax, ay, bx, by, cx, cy, dx, dy).sign();

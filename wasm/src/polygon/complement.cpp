@@ -43,18 +43,22 @@ void takeComplement(const LinkedPolygon& polygon, const Visibility& seen, Linked
   const Point2 corners[4] = {{-side, -side}, {side, -side}, {side, side}, {-side, side}};
   const VertexKind kinds[4] = {VertexKind::Bottom, VertexKind::RightBank, VertexKind::Ceiling,
                                VertexKind::LeftBank};
+  // Numbered in the input's plane, so that a quarter turn takes each to the place of the next.
+  const uint32_t turned = polygon.turned ? 1 : 0, lowest = m + 3 * turned;
+  complement.turned = polygon.turned;
   for (uint32_t k = 0; k < 4; ++k) {
-    complement.at.push_back(corners[k]), complement.kind.push_back(kinds[k]);
+    const uint32_t place = (k + turned) % 4;
+    complement.at.push_back(corners[place]), complement.kind.push_back(kinds[place]);
     complement.vertex.push_back(m + k);
     complement.next.push_back(m + (k + 1) % 4), complement.prev.push_back(m + (k + 3) % 4);
   }
   complement.flat.clear();
   outside.left.resize(m + 4);
-  outside.order.assign(1, m);
+  outside.order.assign(1, lowest);
   for (const uint32_t v : seen.order) {
     if (complement.kind[v] == VertexKind::Unused) continue;
     outside.order.push_back(v);
-    outside.left[v] = seen.left[v] == kNone ? m : seen.left[v];
+    outside.left[v] = seen.left[v] == kNone ? lowest : seen.left[v];
   }
 }
 

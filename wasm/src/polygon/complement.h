@@ -6,7 +6,7 @@
 namespace sf {
 
 /// Loops and visibility of the complement, as a sweep of its own would find them: the polygon's links
-/// the other way round, and the frame's corners as four more nodes at the end.
+/// the other way round, and the corners of a frame (frameAround) as four more nodes at the end.
 ///   polygon, seen  as PlaneSweep::run leaves them for sags only; no rings may touch
 ///                  (PlaneSweep::isPlain)
 /// Isolated points are left out. O(m) time.

@@ -1,5 +1,6 @@
 #include "polygon/constrained_delaunay.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "base/assert.h"
@@ -15,16 +16,16 @@ namespace {
 // Twins from here on are no half-edges: kNone at the loops, else kFixed + i for what halves_[i], the
 // other half-edge of a fixed edge being that of i ^ 1.
 constexpr uint32_t kFixed = 1u << 31;
-// Edges between triangles among so many, to the power of two, come in any order.
-constexpr int kFirstLevel = 3;
+// So many triangles next to each other in the list, to the power of two, are a block; so few are one.
+// Within a block flips are fewer than what merges have to prepare, also on smooth curves; measured.
+constexpr int kBlockBits = 5;
+constexpr uint32_t kBlockHalves = 3u << kBlockBits, kFewHalves = 2 * kBlockHalves;
 constexpr int kLevels = 32;
-// Half-edges up to which flips are fewer than what merges have to prepare, measured.
-constexpr uint32_t kFewHalves = 3 * 64;
 
-/// How far apart two triangles are in the list: the first binary digit in which they differ.
+/// How far apart the blocks of two triangles are: the first binary digit in which they differ.
 int levelOf(uint32_t t, uint32_t s) {
   int level = 0;
-  for (uint32_t d = (t ^ s) >> kFirstLevel; d != 0; d >>= 1) ++level;
+  for (uint32_t d = (t ^ s) >> kBlockBits; d != 0; d >>= 1) ++level;
   return level;
 }
 
@@ -34,63 +35,80 @@ bool ConstrainedDelaunay::run(const LinkedPolygon& loops, bool simple, Work& wor
                               std::vector<uint32_t>& triangles, std::vector<uint32_t>& twins) {
   if (triangles.size() < 6) return true;
   Charge charge(work);
-  const uint64_t perCorner = 3 * sizeof(uint32_t) + (simple ? 0 : 2);
+  const uint64_t perCorner = 3 * sizeof(uint32_t) + (simple ? 1 : 3);
   if (!charge.add(perCorner * triangles.size() + sizeof(Point2) * uint64_t(loops.at.size())))
     return false;
   at_ = loops.at.data();
   metric_ = metricPoints(loops.at, scaled_, isExact_).data();
   count_ = uint32_t(triangles.size());
   corners_ = triangles.data(), twins_ = twins.data();
-  return isExact_ && count_ <= kFewHalves ? flipAll(work) : giveUpEdges(fixEdges(), simple, work);
-}
-
-bool ConstrainedDelaunay::flipAll(Work& work) {
-  stack_.clear();
-  for (uint32_t h = 0; h < count_; ++h)
-    if (h < twins_[h] && twins_[h] != kNone) stack_.push_back(h);
-  return work.tick(50 * (count_ + flipStacked()));
-}
-
-/// Fixes all edges, and orders them; returns how many there are.
-uint32_t ConstrainedDelaunay::fixEdges() {
-  uint32_t starts[kLevels + 1] = {};
-  for (uint32_t h = 0; h < count_; ++h)
-    if (h < twins_[h] && twins_[h] != kNone) ++starts[levelOf(h / 3, twins_[h] / 3) + 1];
-  for (int level = 0; level < kLevels; ++level) starts[level + 1] += starts[level];
-  const uint32_t edges = starts[kLevels];
-  halves_.resize(2 * size_t(edges));
-  for (uint32_t h = 0; h < count_; ++h) {
-    const uint32_t g = twins_[h];
-    if (g >= kFixed) continue;
-    const uint32_t i = 2 * starts[levelOf(h / 3, g / 3)]++;
-    halves_[i] = h, halves_[i + 1] = g;
-    twins_[h] = kFixed + i + 1, twins_[g] = kFixed + i;
-  }
-  return edges;
-}
-
-bool ConstrainedDelaunay::giveUpEdges(uint32_t count, bool simple, Work& work) {
+  waits_.assign(count_, false);
   if (!simple) {
     parts_.resize(count_ / 3);
     std::iota(parts_.begin(), parts_.end(), 0);
   }
-  for (uint32_t i = 0; i < count; ++i) {
-    const uint32_t h = halves_[2 * i], g = halves_[2 * i + 1];
-    twins_[h] = g, twins_[g] = h;
-    bool apart = isExact_;
-    if (!simple) {
-      const uint32_t a = partOf(h / 3), b = partOf(g / 3);
-      apart &= a != b;
-      parts_[a] = b;
+  return flipBlocks(simple, work) && giveUpEdges(simple, work);
+}
+
+/// Makes each block constrained Delaunay by itself; the edges between blocks become fixed.
+bool ConstrainedDelaunay::flipBlocks(bool simple, Work& work) {
+  halves_.clear();
+  const uint32_t size = count_ <= kFewHalves ? kFewHalves : kBlockHalves;
+  for (uint32_t first = 0; first < count_; first += size) {
+    const uint32_t end = std::min(first + size, count_);
+    for (uint32_t h = first; h < end; ++h) {
+      const uint32_t g = twins_[h];
+      if (g <= h || g >= kFixed) continue;
+      if (g < end) {
+        push(h);
+        if (!simple) join(h / 3, g / 3);
+        continue;
+      }
+      const uint32_t i = uint32_t(halves_.size());
+      halves_.push_back(h), halves_.push_back(g);
+      twins_[h] = kFixed + i + 1, twins_[g] = kFixed + i;
     }
+    if (!work.tick(50 * (end - first + flipStacked()))) return false;
+  }
+  return true;
+}
+
+/// The fixed edges in the order of giving up, as places in halves_.
+void ConstrainedDelaunay::orderEdges() {
+  uint32_t starts[kLevels + 1] = {};
+  const uint32_t count = uint32_t(halves_.size());
+  const auto level = [&](uint32_t i) { return levelOf(halves_[i] / 3, halves_[i + 1] / 3); };
+  for (uint32_t i = 0; i < count; i += 2) ++starts[level(i) + 1];
+  for (int l = 0; l < kLevels; ++l) starts[l + 1] += starts[l];
+  order_.resize(count / 2);
+  for (uint32_t i = 0; i < count; i += 2) order_[starts[level(i)]++] = i;
+}
+
+bool ConstrainedDelaunay::giveUpEdges(bool simple, Work& work) {
+  orderEdges();
+  for (const uint32_t i : order_) {
+    const uint32_t h = halves_[i], g = halves_[i + 1];
+    twins_[h] = g, twins_[g] = h;
+    const bool apart = simple || join(h / 3, g / 3);
     uint32_t changes = 1;
     if (isIllegal(h)) {
-      stack_.assign(1, h);
-      changes += apart ? merge(h) : flipStacked();
+      if (apart && isExact_) {
+        changes += merge(h);
+      } else {
+        push(h);
+        changes += flipStacked();
+      }
     }
     if (!work.tick(50 * changes)) return false;
   }
   return true;
+}
+
+/// Makes the parts of two triangles one; false if they are already.
+bool ConstrainedDelaunay::join(uint32_t t, uint32_t s) {
+  const uint32_t a = partOf(t), b = partOf(s);
+  parts_[a] = b;
+  return a != b;
 }
 
 /// A name for the part of the polygon, between fixed edges, that triangle t belongs to.
@@ -99,7 +117,8 @@ uint32_t ConstrainedDelaunay::partOf(uint32_t t) {
   return t;
 }
 
-bool ConstrainedDelaunay::isIllegal(uint32_t h) const {
+// Inline: calls would take a twentieth of the time.
+inline __attribute__((always_inline)) bool ConstrainedDelaunay::isIllegal(uint32_t h) const {
   const uint32_t g = twins_[h];
   const uint32_t a = corners_[h], b = corners_[g];
   const uint32_t c = corners_[prevInTriangle(h)], d = corners_[prevInTriangle(g)];
@@ -116,19 +135,31 @@ void ConstrainedDelaunay::setTwin(uint32_t h, uint32_t g) {
     halves_[(g - kFixed) ^ 1] = h;
 }
 
+/// Puts the other diagonal into the two triangles at h; it comes after h, and after its twin.
+void ConstrainedDelaunay::flip(uint32_t h) {
+  const uint32_t g = twins_[h];
+  const uint32_t h1 = nextInTriangle(h), g1 = nextInTriangle(g);
+  corners_[h1] = corners_[prevInTriangle(g)], corners_[g1] = corners_[prevInTriangle(h)];
+  setTwin(h, twins_[g1]), setTwin(g, twins_[h1]);
+  twins_[h1] = g1, twins_[g1] = h1;
+}
+
+void ConstrainedDelaunay::push(uint32_t h) {
+  stack_.push_back(h);
+  waits_[h] = true;
+}
+
 /// Flips the edges of the stack that are illegal, and all that become so. Returns the number of flips.
 uint32_t ConstrainedDelaunay::flipStacked() {
   uint32_t flips = 0;
   while (!stack_.empty()) {
     const uint32_t h = stack_.back(), g = twins_[h];
     stack_.pop_back();
+    waits_[h] = false;
     if (g >= kFixed || !isIllegal(h)) continue;
-    const uint32_t h1 = nextInTriangle(h), g1 = nextInTriangle(g);
-    const uint32_t h2 = prevInTriangle(h), g2 = prevInTriangle(g);
-    corners_[h1] = corners_[g2], corners_[g1] = corners_[h2];
-    setTwin(h, twins_[g1]), setTwin(g, twins_[h1]);
-    twins_[h1] = g1, twins_[g1] = h1;
-    stack_.insert(stack_.end(), {h, h2, g, g2});
+    flip(h);
+    for (const uint32_t e : {h, prevInTriangle(h), g, prevInTriangle(g)})
+      if (twins_[e] < kFixed && !waits_[e] && !waits_[twins_[e]]) push(e);
     ++flips;
   }
   return flips;

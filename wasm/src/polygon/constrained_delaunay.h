@@ -1,9 +1,9 @@
 // Constrained Delaunay triangles from any triangles of a polygon.
 //
-// At first every edge between triangles is fixed. Then they are given up one after the other, those
-// between neighbours in the list of triangles first, those between its halves last; each time the
-// triangles to the left and to the right of the edge, constrained Delaunay by themselves, are merged.
-// All that a merge makes crosses the edge, from one end to the other: a circle that rises along the
+// The list of triangles is taken in blocks. Within a block, edges are flipped until all are legal. Those
+// between blocks are fixed at first, then given up one after the other, between neighbours in the list
+// first, between its halves last; each time the triangles to the left and to the right of the edge,
+// constrained Delaunay by themselves, are merged. All that a merge makes crosses the edge, from one end to the other: a circle that rises along the
 // edge finds them in that order, and meets nothing that it would have to take back.
 //
 // Source: Guibas, Stolfi 1985, "Primitives for the manipulation of general subdivisions and the
@@ -12,8 +12,8 @@
 // interpolation", for flips.
 // Differs: parts are separated by an edge that both have, not by a line, so that the circle starts at
 // its end. Where both sides are connected elsewhere, around a hole or an isolated point, they could
-// have a triangle in common: there, flips. Flips alone, all edges at once, are for small polygons:
-// they take O(n) a vertex on smooth curves, since water leaves thin triangles side by side.
+// have a triangle in common: there, flips. Flips alone would take O(n) a vertex on smooth curves, since
+// water leaves thin triangles side by side.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -43,16 +43,19 @@ class ConstrainedDelaunay {
     uint32_t vertex, outer;
   };
 
-  bool flipAll(Work& work);
-  uint32_t fixEdges();
-  bool giveUpEdges(uint32_t count, bool simple, Work& work);
+  bool flipBlocks(bool simple, Work& work);
+  void orderEdges();
+  bool giveUpEdges(bool simple, Work& work);
   bool isIllegal(uint32_t h) const;
   uint32_t merge(uint32_t h);
   void takeLeft(uint32_t left, uint32_t right);
   void takeRight(uint32_t left, uint32_t right);
   uint32_t create(uint32_t a, uint32_t b, uint32_t c);
   void setTwin(uint32_t h, uint32_t g);
+  void flip(uint32_t h);
+  void push(uint32_t h);
   uint32_t flipStacked();
+  bool join(uint32_t t, uint32_t s);
   uint32_t partOf(uint32_t t);
 
   uint32_t *corners_ = nullptr, *twins_ = nullptr;
@@ -60,10 +63,12 @@ class ConstrainedDelaunay {
   const Point2 *at_ = nullptr, *metric_ = nullptr;
   bool isExact_ = true;  // the circles of `metric` are those of `at`
   std::vector<Point2> scaled_;
-  std::vector<uint32_t> halves_;  // the half-edges of fixed edges, in the order of giving up
+  std::vector<uint32_t> halves_;  // the half-edges of fixed edges, two by two
+  std::vector<uint32_t> order_;
   std::vector<Border> left_, right_;
   std::vector<uint32_t> free_;  // triangles taken away
   std::vector<uint32_t> stack_, parts_;
+  std::vector<uint8_t> waits_;  // [3m] whether a half-edge is in the stack
 };
 
 }  // namespace sf

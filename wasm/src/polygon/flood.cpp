@@ -1,5 +1,7 @@
 #include "polygon/flood.h"
 
+#include <cstring>
+
 #include "base/charge.h"
 #include "polygon/turn.h"
 
@@ -14,10 +16,13 @@ bool Flood::run(const LinkedPolygon& loops, const Visibility& seen, Work& work,
   for (uint32_t v : seen.order) bridges += loops.kind[v] != VertexKind::Bottom;
   const uint64_t perNode = sizeof(Node) + (twins ? 4 * sizeof(uint32_t) : 0);
   if (!charge.add((m + 2 * bridges) * perNode)) return false;
-  nodes_.resize(m + 2 * bridges);
+  // They only grow: what is there needs no clearing.
+  if (nodes_.size() < m + 2 * bridges) nodes_.resize(m + 2 * bridges);
   twins_ = nullptr;
   if (twins) {
-    below_.assign(m + 2 * bridges, kNone), bridges_.clear();
+    if (below_.size() < nodes_.size()) below_.resize(nodes_.size());
+    std::memset(below_.data(), 0xFF, (m + 2 * bridges) * sizeof(uint32_t));  // kNone
+    bridges_.clear();
     twins->resize(3 * (m + 2 * bridges));
     twins_ = twins->data();
   }

@@ -4,7 +4,8 @@
 // left bank directly, so sags are kept under the edge to their left, as the sweep found it, and
 // `inside` is not needed. A spill follows the bank down to the next local minimum alone; if that
 // is no bottom that waits, the lowest waiting one is next, wherever it is. Both make the whole
-// linear. Isolated vertices are bridged as a sag and a top in one. PAPERS.md has the symbols.
+// linear. Water may rise along x, where a polygon has far fewer minima that way (link_rings.h), unless
+// a trace is wanted. Isolated vertices are bridged as a sag and a top in one. PAPERS.md has the symbols.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/double2.h"
 #include "polygon/turn.h"
 
 namespace sf {
@@ -9,16 +10,18 @@ namespace {
 
 /// Magnitudes of coordinates.
 struct Extent {
-  double largest = 0;
-  bool finite = true;
+  Double2 greatest = {0, 0};
+  Int2 finite = {-1, -1};
 
-  void add(double x) {
-    const double a = std::fabs(x);
-    finite &= a <= kLargestCoordinate;  // false for NaN
-    largest = a > largest ? a : largest;
+  void add(Point2 p) {
+    const Double2 xy = {p.x, p.y}, size = magnitudes(xy);
+    finite &= size <= kLargestCoordinate;  // false for NaN
+    greatest = greater(size, greatest);
   }
+  bool isFinite() const { return (finite[0] & finite[1]) != 0; }
   /// The power of two by which to scale, so that tiny polygons do not live on underflows.
   double scale() const {
+    const double largest = greatest[0] > greatest[1] ? greatest[0] : greatest[1];
     if (largest == 0 || largest > 0x1p-200) return 1;
     int exponent;
     std::frexp(largest, &exponent);
@@ -56,15 +59,30 @@ Outcome firstNotFinite(const PolygonView& polygon) {
     if (isBad(polygon.points, bad.loop - rings)) return bad;
 }
 
-/// Copies positions, and points or the frame, to `at`, scaled; false if one is not finite.
-bool copyScaled(const PolygonView& polygon, bool complement, std::vector<Point2>& at) {
+/// Whether x has less than three quarters as many local minima and maxima as y, the points taken as
+/// one line.
+bool hasFewerExtremaAlongX(const std::vector<Point2>& at, size_t n) {
+  Int2 count = {0, 0}, wasUp = {0, 0};
+  for (size_t i = 1; i < n; ++i) {
+    const Double2 from = {at[i - 1].x, at[i - 1].y}, to = {at[i].x, at[i].y};
+    const Int2 isUp = from < to;
+    count -= wasUp ^ isUp;
+    wasUp = isUp;
+  }
+  return 4 * count[0] < 3 * count[1];
+}
+
+/// Copies positions, and points or the frame, to `linked`, scaled, and turned if that may and should
+/// be; false if one is not finite.
+bool copyScaled(const PolygonView& polygon, bool mayTurn, bool complement, LinkedPolygon& linked) {
+  std::vector<Point2>& at = linked.at;
   const size_t n = polygon.positions.size() / 2;
   at.resize(n + (complement ? 4 : polygon.points.size() / 2));
   Extent extent;
   const auto copy = [&](ArrayView<const double> xy, Point2* to) {
     for (size_t i = 0; i < xy.size() / 2; ++i) {
       to[i] = {xy[2 * i], xy[2 * i + 1]};
-      extent.add(to[i].x), extent.add(to[i].y);
+      extent.add(to[i]);
     }
   };
   copy(polygon.positions, at.data());
@@ -72,10 +90,13 @@ bool copyScaled(const PolygonView& polygon, bool complement, std::vector<Point2>
     frameAround(polygon, at.data() + n);
   else
     copy(polygon.points, at.data() + n);
-  if (!extent.finite) return false;
+  if (!extent.isFinite()) return false;
   const double scale = extent.scale();
   if (scale != 1)
     for (Point2& q : at) q = {q.x * scale, q.y * scale};
+  linked.turned = mayTurn && hasFewerExtremaAlongX(at, n);
+  if (linked.turned)
+    for (Point2& q : at) q = {-q.y, q.x};
   return true;
 }
 
@@ -196,10 +217,10 @@ void frameAround(const PolygonView& polygon, Point2 corners[4]) {
   corners[0] = {-m, -m}, corners[1] = {m, -m}, corners[2] = {m, m}, corners[3] = {-m, m};
 }
 
-Outcome linkRings(const PolygonView& polygon, bool complement, LinkedPolygon& linked,
+Outcome linkRings(const PolygonView& polygon, bool mayTurn, bool complement, LinkedPolygon& linked,
                   std::vector<uint8_t>& reversed) {
   if (Outcome bad = checkStarts(polygon); !bad.ok()) return bad;
-  if (!copyScaled(polygon, complement, linked.at)) return firstNotFinite(polygon);
+  if (!copyScaled(polygon, mayTurn, complement, linked)) return firstNotFinite(polygon);
   const uint32_t n = uint32_t(polygon.positions.size() / 2), m = uint32_t(linked.at.size());
   const uint32_t rings = uint32_t(polygon.starts.size()) - 1;
   linked.vertex.resize(m), linked.next.resize(m), linked.prev.resize(m), linked.kind.resize(m);

@@ -1,18 +1,22 @@
 #include "polygon/metric.h"
 
-#include <initializer_list>
 #include <limits>
+
+#include "base/double2.h"
 
 namespace sf {
 
 ArrayView<const Point2> metricPoints(ArrayView<const Point2> at, std::vector<Point2>& scaled,
                                      bool& isExact) {
-  double largest = 0, least = std::numeric_limits<double>::infinity();
-  for (const Point2 p : at)
-    for (const double m : {std::fabs(p.x), std::fabs(p.y)}) {
-      if (m > largest) largest = m;
-      if (m < least && m > 0) least = m;
-    }
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Double2 greatest = {0, 0}, least2 = {kInfinity, kInfinity};
+  for (const Point2 p : at) {
+    const Double2 xy = {p.x, p.y}, m = magnitudes(xy);
+    greatest = greater(m, greatest);
+    least2 = ((m < least2) & (m > 0)) ? m : least2;
+  }
+  const double largest = greatest[0] > greatest[1] ? greatest[0] : greatest[1];
+  const double least = least2[0] < least2[1] ? least2[0] : least2[1];
   isExact = true;
   if (largest <= 0x1p60 && least >= 0x1p-150) return at;
   int exponent;

@@ -55,7 +55,8 @@ enum class VertexKind : uint8_t {
 /// rings touch, vertices have more corners than occurrences in rings, and each is a node.
 /// The polygon lies to the left of every link u -> next[u]; an island is linked to itself.
 struct LinkedPolygon {
-  std::vector<Point2> at;        // [m] scaled by a power of two along each axis, if need be
+  std::vector<Point2> at;        // [m] scaled by a power of two, if need be, and turned if `turned`
+  bool turned = false;           // by a quarter, counter-clockwise: input x runs upwards
   std::vector<uint32_t> vertex;  // [m] index in the input
   std::vector<uint32_t> next, prev;
   std::vector<VertexKind> kind;

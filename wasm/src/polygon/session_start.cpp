@@ -129,7 +129,7 @@ bool PolygonSession::flood(ArrayView<const uint32_t> ringNext, Work& work) {
   LinkedPolygon inside, outside;
   Visibility seen, seenOutside;
   std::vector<uint32_t> around, twins;
-  if (!sweep.run({xy[0], starts, xy[1]}, true, work, inside, seen).ok()) return false;
+  if (!sweep.run({xy[0], starts, xy[1]}, true, false, work, inside, seen).ok()) return false;
   if (!sweep.isPlain() || !flood.run(inside, seen, work, corners, nullptr, &twins)) return false;
   const bool simple = starts.size() == 2 && islands.empty();
   if (!delaunay.run(inside, simple, work, corners, twins)) return false;

@@ -45,18 +45,18 @@ void PlaneSweep::findEqual(std::vector<uint32_t>& same) const {
   }
 }
 
-Outcome PlaneSweep::run(const PolygonView& polygon, bool sagsOnly, Work& work,
+Outcome PlaneSweep::run(const PolygonView& polygon, bool sagsOnly, bool mayTurn, Work& work,
                         LinkedPolygon& linked, Visibility& seen) {
-  return run(polygon, false, sagsOnly, work, linked, seen);
+  return run(polygon, false, sagsOnly, mayTurn, work, linked, seen);
 }
 
 Outcome PlaneSweep::runComplement(const PolygonView& polygon, Work& work, LinkedPolygon& linked,
                                   Visibility& seen) {
-  return run(polygon, true, true, work, linked, seen);
+  return run(polygon, true, true, true, work, linked, seen);
 }
 
-Outcome PlaneSweep::run(const PolygonView& polygon, bool complement, bool sagsOnly, Work& work,
-                        LinkedPolygon& linked, Visibility& seen) {
+Outcome PlaneSweep::run(const PolygonView& polygon, bool complement, bool sagsOnly, bool mayTurn,
+                        Work& work, LinkedPolygon& linked, Visibility& seen) {
   State& s = *state_;
   Charge charge(work);
   const uint64_t n = (polygon.positions.size() + polygon.points.size()) / 2 + 4;
@@ -66,7 +66,7 @@ Outcome PlaneSweep::run(const PolygonView& polygon, bool complement, bool sagsOn
     outcome.status = work.status();
     return outcome;
   }
-  outcome = linkRings(polygon, complement, linked, s.reversed);
+  outcome = linkRings(polygon, mayTurn, complement, linked, s.reversed);
   if (!outcome.ok()) return outcome;
   s.sagsOnly = sagsOnly;
   if (!s.begin(polygon, linked, seen, work)) {

@@ -42,6 +42,8 @@ class PlaneSweep {
 
   /// Checks the polygon and links its loops: outer ring counter-clockwise, holes clockwise,
   /// re-linked wherever rings touch, with a node for each corner and the kind of every node.
+  ///   mayTurn  the sweep may run along x, if the polygon has far fewer local minima and maxima that
+  ///            way: linked.turned
   ///   seen   what nodes see; if `sagsOnly`, `order` has bottoms, sags and islands alone, and only
   ///          their `left` is set: for bottoms the edge to the left outside the polygon
   /// Status Ok, or, if the polygon is not valid, the first of these three that applies, then of the
@@ -58,10 +60,10 @@ class PlaneSweep {
   ///   NestedHole         hole `loop` lies in hole `otherLoop`
   ///   OutOfMemory, Stopped
   /// O(n log n) time, O(n) memory, kept for the next call and charged to `work` during each.
-  Outcome run(const PolygonView& polygon, bool sagsOnly, Work& work, LinkedPolygon& linked,
-              Visibility& seen);
+  Outcome run(const PolygonView& polygon, bool sagsOnly, bool mayTurn, Work& work,
+              LinkedPolygon& linked, Visibility& seen);
 
-  /// The same, sags only, for what is left of a frame around the polygon when the polygon is taken
+  /// The same, sags only and either way, for what is left of a frame around the polygon when the polygon is taken
   /// out of it; nodes n to n + 3 are the frame's corners. Isolated points are left out.
   Outcome runComplement(const PolygonView& polygon, Work& work, LinkedPolygon& linked,
                         Visibility& seen);
@@ -74,7 +76,7 @@ class PlaneSweep {
   const std::vector<uint8_t>& reversed() const;
 
  private:
-  Outcome run(const PolygonView& polygon, bool complement, bool sagsOnly, Work& work,
+  Outcome run(const PolygonView& polygon, bool complement, bool sagsOnly, bool mayTurn, Work& work,
               LinkedPolygon& linked, Visibility& seen);
 
   std::unique_ptr<SweepState> state_;

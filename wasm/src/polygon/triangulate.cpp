@@ -92,7 +92,8 @@ Outcome PolygonTriangulator::State::append(const PolygonView& polygon,
     return outcome;
   }
   const bool sagsOnly = options.method == PolygonMethod::Flooding;
-  outcome = sweep.run(polygon, sagsOnly, work, loops, seen);
+  // Trapezoids lie along x, and a trace tells of heights along y.
+  outcome = sweep.run(polygon, sagsOnly, sagsOnly && !trace, work, loops, seen);
   if (!outcome.ok()) return outcome;
   isSimple = polygon.starts.size() == 2 && polygon.points.empty() && sweep.isPlain();
   bool done = triangulateLoops(options, work, triangles, trace);
