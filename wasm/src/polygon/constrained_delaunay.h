@@ -3,8 +3,9 @@
 // The list of triangles is taken in blocks. Within a block, edges are flipped until all are legal. Those
 // between blocks are fixed at first, then given up one after the other, between neighbours in the list
 // first, between its halves last; each time the triangles to the left and to the right of the edge,
-// constrained Delaunay by themselves, are merged. All that a merge makes crosses the edge, from one end to the other: a circle that rises along the
-// edge finds them in that order, and meets nothing that it would have to take back.
+// constrained Delaunay by themselves, are merged. All that a merge makes crosses the edge, from one end
+// to the other: a circle that rises along the edge finds them in that order, and meets nothing that it
+// would have to take back.
 //
 // Source: Guibas, Stolfi 1985, "Primitives for the manipulation of general subdivisions and the
 // computation of Voronoi diagrams", sec. 9, for the merge; Chew 1989, "Constrained Delaunay
