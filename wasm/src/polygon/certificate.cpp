@@ -1,19 +1,19 @@
 #include "polygon/certificate.h"
 
 #include "base/charge.h"
-#include "polygon/triangle_mesh.h"
 #include "polygon/turn.h"
 
 namespace sf {
 namespace {
 
 /// A sum of directed edges that are to cancel: a table of those that still wait for their opposites.
-/// Triangles mostly come next to each other, so few wait at a time.
+/// Triangles mostly come next to each other, so few wait at a time; often none, hence no table.
 class OpenEdges {
  public:
-  explicit OpenEdges(Charge& charge) : charge_(charge), slots_(kSmallest, kFree) {}
+  explicit OpenEdges(Charge& charge) : charge_(charge) {}
 
   void add(uint32_t u, uint32_t v) {
+    if (slots_.empty()) slots_.assign(kSmallest, kFree);
     const uint64_t opposite = key(v, u);
     for (size_t i = home(opposite);; i = (i + 1) & mask()) {
       if (slots_[i] == opposite) return takeOut(i);
@@ -72,15 +72,14 @@ class OpenEdges {
 };
 
 /// Whether the boundary of the triangles is that of the rings, or of the frame less the rings.
-bool boundsRings(const Certificate& c, bool frame, Work& work) {
+///   wanted  [m] the edge that has to be left over at each point; where there are more, the others are
+///           taken away. kNone, and again kNone if true is returned
+bool boundsRings(const Certificate& c, bool frame, std::vector<uint32_t>& wanted, Work& work) {
   const std::vector<uint32_t>& triangles = frame ? c.complement : c.inside;
   const std::vector<uint32_t>& twins = frame ? c.complementTwins : c.insideTwins;
   const size_t m = c.at.size();
   Charge charge(work);
-  if (!charge.add(4 * uint64_t(m))) return false;
   OpenEdges open(charge);
-  // The edge that has to be left over at each point; where there are more, the others are taken away.
-  std::vector<uint32_t> wanted(m, kNone);
   const auto want = [&](uint32_t u, uint32_t v) {
     u = c.same[u], v = c.same[v];
     if (u == v) return;  // points at one place have no edge between them
@@ -98,19 +97,20 @@ bool boundsRings(const Certificate& c, bool frame, Work& work) {
   };
   for (size_t i = 0; i < c.rings.size(); i += 2)
     frame ? want(c.rings[i + 1], c.rings[i]) : want(c.rings[i], c.rings[i + 1]);
-  const uint32_t first = uint32_t(m) - 4;
-  for (uint32_t k = 0; frame && k < 4; ++k) want(first + k, first + (k + 1) % 4);
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
-    const uint32_t u = triangles[h], v = triangles[nextInTriangle(h)];
-    const uint32_t g = h < twins.size() ? twins[h] : kNone;
-    if (g == kNone) {
-      add(c.same[u], c.same[v]);
-      continue;
+  const uint32_t corner = uint32_t(m) - 4;
+  for (uint32_t k = 0; frame && k < 4; ++k) want(corner + k, corner + (k + 1) % 4);
+  const size_t paired = twins.size() < triangles.size() ? twins.size() : triangles.size();
+  for (uint32_t first = 0; first < triangles.size(); first += 3)
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t h = first + k, v = triangles[first + (k + 1) % 3];
+      const uint32_t g = h < paired ? twins[h] : kNone;
+      if (g == kNone) {
+        add(c.same[triangles[h]], c.same[v]);
+        continue;
+      }
+      // That g ends where h begins is seen from g.
+      if (g >= paired || twins[g] != h || triangles[g] != v) return false;
     }
-    if (g >= triangles.size() || g >= twins.size() || twins[g] != h) return false;
-    // Looked at once, from the first of the two.
-    if (g >= h && (triangles[g] != v || triangles[nextInTriangle(g)] != u)) return false;
-  }
   for (const uint32_t v : wanted)
     if (v != kNone) return false;
   return open.isZero() && work.going();
@@ -133,7 +133,10 @@ bool certify(const Certificate& c, Work& work) {
   }
   if (!noneTurnedOver(c, c.inside) || !noneTurnedOver(c, c.complement)) return false;
   if (!work.tick(uint32_t(c.at.size() < (1u << 24) ? c.at.size() * 60 : 1u << 30))) return false;
-  return boundsRings(c, false, work) && boundsRings(c, true, work);
+  Charge charge(work);
+  if (!charge.add(sizeof(uint32_t) * uint64_t(c.at.size()))) return false;
+  std::vector<uint32_t> wanted(c.at.size(), kNone);
+  return boundsRings(c, false, wanted, work) && boundsRings(c, true, wanted, work);
 }
 
 }  // namespace sf

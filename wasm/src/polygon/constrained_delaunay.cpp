@@ -32,7 +32,7 @@ int levelOf(uint32_t t, uint32_t s) {
 }  // namespace
 
 bool ConstrainedDelaunay::run(const LinkedPolygon& loops, bool simple, Work& work,
-                              std::vector<uint32_t>& triangles, std::vector<uint32_t>& twins) {
+                              ArrayView<uint32_t> triangles, ArrayView<uint32_t> twins) {
   if (triangles.size() < 6) return true;
   Charge charge(work);
   const uint64_t perCorner = 3 * sizeof(uint32_t) + (simple ? 1 : 3);

@@ -34,8 +34,8 @@ class ConstrainedDelaunay {
   /// Triangles that are Delaunay stay, also where more than three nodes lie on one circle.
   /// False, and both lists undefined, once `work` is to end. O(n log n) time for all but unnatural
   /// polygons; memory is charged, and kept for the next call.
-  bool run(const LinkedPolygon& loops, bool simple, Work& work, std::vector<uint32_t>& triangles,
-           std::vector<uint32_t>& twins);
+  bool run(const LinkedPolygon& loops, bool simple, Work& work, ArrayView<uint32_t> triangles,
+           ArrayView<uint32_t> twins);
 
  private:
   /// An edge of the border of what a merge has taken away: from the vertex of the one below it in the

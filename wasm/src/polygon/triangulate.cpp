@@ -39,7 +39,7 @@ struct PolygonTriangulator::State {
   LinkedPolygon loops, outerLoops;
   Visibility seen, outside;
   Certificate certificate;
-  std::vector<uint32_t> nodes, starts;
+  std::vector<uint32_t> starts;
   std::vector<uint32_t> twins;  // of the triangles found last, if asked for
   bool isSimple = false;        // the polygon is one ring that does not touch itself
 
@@ -60,22 +60,21 @@ PolygonTriangulator::~PolygonTriangulator() = default;
 bool PolygonTriangulator::State::triangulateLoops(const PolygonOptions& options, Work& work,
                                                   std::vector<uint32_t>& triangles,
                                                   std::vector<FloodStep>* trace) {
-  const bool flooding = options.method == PolygonMethod::Flooding;
-  twins.clear();
-  if (!options.delaunay)
-    return flooding
-               ? flood.run(loops, seen, work, triangles, trace, options.verify ? &twins : nullptr)
-               : trapezoids.triangulate(loops, seen, true, options.strips, work, triangles);
-  nodes.clear();
-  if (flooding) {
-    if (!flood.run(loops, seen, work, nodes, trace, &twins)) return false;
+  const size_t before = triangles.size();
+  const auto added = [&] {
+    return ArrayView<uint32_t>(triangles.data() + before, triangles.size() - before);
+  };
+  if (options.method == PolygonMethod::Flooding) {
+    const bool paired = options.delaunay || options.verify;
+    if (!flood.run(loops, seen, work, triangles, trace, paired ? &twins : nullptr)) return false;
   } else {
-    if (!trapezoids.triangulate(loops, seen, true, false, work, nodes)) return false;
-    if (!findTwins(nodes, uint32_t(loops.at.size()), work, twins)) return false;
+    const bool forStrips = options.strips && !options.delaunay;
+    if (!trapezoids.triangulate(loops, seen, true, forStrips, work, triangles)) return false;
+    twins.clear();
+    if (options.delaunay && !findTwins(added(), uint32_t(loops.at.size()), work, twins))
+      return false;
   }
-  if (!delaunay.run(loops, isSimple, work, nodes, twins)) return false;
-  triangles.insert(triangles.end(), nodes.begin(), nodes.end());
-  return true;
+  return !options.delaunay || delaunay.run(loops, isSimple, work, added(), twins);
 }
 
 /// Appends the triangles of one polygon, as its vertices.
