@@ -43,11 +43,17 @@ bool ConstrainedDelaunay::run(const LinkedPolygon& loops, bool simple, Work& wor
   count_ = uint32_t(triangles.size());
   corners_ = triangles.data(), twins_ = twins.data();
   waits_.assign(count_, false);
+  if (stack_.size() < count_) stack_.resize(count_);
   if (!simple) {
     parts_.resize(count_ / 3);
     std::iota(parts_.begin(), parts_.end(), 0);
   }
   return flipBlocks(simple, work) && giveUpEdges(simple, work);
+}
+
+inline void ConstrainedDelaunay::push(uint32_t h) {
+  stack_[waiting_++] = h;
+  waits_[h] = true;
 }
 
 /// Makes each block constrained Delaunay by itself; the edges between blocks become fixed.
@@ -144,17 +150,11 @@ void ConstrainedDelaunay::flip(uint32_t h) {
   twins_[h1] = g1, twins_[g1] = h1;
 }
 
-void ConstrainedDelaunay::push(uint32_t h) {
-  stack_.push_back(h);
-  waits_[h] = true;
-}
-
 /// Flips the edges of the stack that are illegal, and all that become so. Returns the number of flips.
 uint32_t ConstrainedDelaunay::flipStacked() {
   uint32_t flips = 0;
-  while (!stack_.empty()) {
-    const uint32_t h = stack_.back(), g = twins_[h];
-    stack_.pop_back();
+  while (waiting_ > 0) {
+    const uint32_t h = stack_[--waiting_], g = twins_[h];
     waits_[h] = false;
     if (g >= kFixed || !isIllegal(h)) continue;
     flip(h);

@@ -68,8 +68,13 @@ class ConstrainedDelaunay {
   std::vector<uint32_t> order_;
   std::vector<Border> left_, right_;
   std::vector<uint32_t> free_;  // triangles taken away
-  std::vector<uint32_t> stack_, parts_;
-  std::vector<uint8_t> waits_;  // [3m] whether a half-edge is in the stack
+  std::vector<uint32_t> parts_;
+  // The half-edges of edges to look at, none twice.
+  std::vector<uint32_t> stack_;
+  uint32_t waiting_ = 0;
+  // [3m] Whether a half-edge is among them. Bytes would do, but the compiler takes whatever it knows
+  // to be changed by one that is written.
+  std::vector<uint16_t> waits_;
 };
 
 }  // namespace sf
