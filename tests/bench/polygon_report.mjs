@@ -68,7 +68,8 @@ export function goals(results, sessions) {
       const more = seconds.verify / seconds.flooding - 1;
       lines.push(verdict(`${id}: certificate, by one more triangulation`, more, 1.2));
     }
-    if (typeof seconds['earcut, refined'] === 'number' && c.n >= 1000) {
+    // Not where the others take what is invalid as it comes.
+    if (typeof seconds['earcut, refined'] === 'number' && c.n >= 1000 && !c.repairs) {
       const share = seconds.delaunay / seconds['earcut, refined'];
       lines.push(verdict(`${id}: Delaunay, by earcut and refine`, share, 0.5));
     }
