@@ -15,9 +15,12 @@ import { watchMemory } from './watch_memory.mjs';
 
 /** Engines that are measured in turns with each other. */
 const kQuick = new Set([...Object.keys(kEngines).slice(0, 6), 'earcut', 'earcut, refined']);
-/** Time for the warm runs of all engines of a case together. */
+/** Time for the warm turns of all engines of a case together; how many there are at least. */
 const kSeconds = 3;
-const kMostRuns = 400;
+const kLeastTurns = 6;
+/** A turn is as many runs as take so long, or one: so quick engines, too, find their own in the caches. */
+const kTurn = 0.01;
+const kMostRuns = 1000;
 /** An engine whose first run takes longer is run once more, or not at all; the shorter run counts. */
 const kDear = 2;
 const kVeryDear = 10;
@@ -26,11 +29,11 @@ const kMostSeconds = 120;
 
 const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
 
-function timed(run) {
+function timed(run, count = 1) {
   const start = process.cpuUsage();
-  run();
+  for (let i = 0; i < count; i++) run();
   const { user, system } = process.cpuUsage(start);
-  return (user + system) / 1e6;
+  return (user + system) / 1e6 / count;
 }
 
 /** Medians of seconds for each engine; a string where one fails. */
@@ -50,10 +53,15 @@ function race(runs, peak) {
   }
   const going = runs.filter(([name]) => times.get(name)?.length === 0);
   const end = performance.now() + 1000 * kSeconds;
-  for (let round = 0; round < kMostRuns && (round < 3 || performance.now() < end); round++) {
-    for (const [name, run] of going) times.get(name).push(timed(run));
+  const counts = new Map();
+  for (let turn = 0; going.length > 0 && (turn < kLeastTurns || performance.now() < end); turn++) {
+    for (const [name, run] of going) {
+      const took = timed(run, counts.get(name));
+      times.get(name).push(took);
+      counts.set(name, Math.floor(Math.min(Math.max(kTurn / took, 1), kMostRuns)));
+    }
   }
-  // The first rounds warm up: compilers of JavaScript and of WebAssembly come back to what runs often.
+  // The first turns warm up: compilers of JavaScript and of WebAssembly come back to what runs often.
   for (const [name] of going) {
     const all = times.get(name);
     seconds[name] = median(all.slice(Math.ceil(all.length / 4)));

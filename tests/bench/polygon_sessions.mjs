@@ -3,8 +3,8 @@
 import { pathToFileURL } from 'node:url';
 import { PolygonSession, load, triangulatePolygon } from 'soapfilm';
 
-const kMoves = 400;
-const kWarm = 200;
+const kMoves = 3000;
+const kWarm = 1500;
 
 const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
 

@@ -116,12 +116,12 @@ function imports(compiled: WebAssembly.Module): WebAssembly.Imports {
   return result;
 }
 
-function open(part: Part, instance: WebAssembly.Instance): Core {
-  const { memory } = instance.exports;
+function open(part: Part, { exports }: WebAssembly.Instance): Core {
+  const { memory } = exports;
   const lacks = (what: string): SoapfilmError =>
     new SoapfilmError('load-failed', `The module for '${part}' has no ${what}`);
   const find = (name: string): Export => {
-    const found = instance.exports[name];
+    const found = exports[name];
     if (typeof found === 'function') return found as Export;
     throw lacks(`function \`${name}\``);
   };
@@ -282,13 +282,13 @@ function callIn<const T extends readonly ArrayType[]>(
     if (arrays && borrows) called.lent = handle;
     else if (handle !== 0) find('sf_result_free')(handle);
   }
-  const culprits = new Uint32Array(memory.buffer, where, 4).slice();
+  const culprits = arrays ?? new Uint32Array(memory.buffer, where, 4).slice();
   find('sf_free')(block);
   if (thisRun.stop && !(thisRun.stop.gently && arrays)) throw thisRun.stop.reason;
   if (!arrays) {
     throw status === kStopped
       ? new SoapfilmError('cancelled', 'The work was stopped')
-      : explain(status, culprits);
+      : explain(status, culprits as Uint32Array);
   }
   return { found: status === kOk, arrays };
 }
