@@ -168,6 +168,34 @@ TEST_CASE("constrained delaunay: holes and isolated points, where merges could m
   }
 }
 
+TEST_CASE(
+    "constrained delaunay: many isolated points, around which blocks are connected both ways") {
+  constexpr uint32_t kSeed = 4320;
+  CAPTURE(kSeed);
+  Random random(kSeed);
+  for (int instance = 0; instance < 40; ++instance) {
+    CAPTURE(instance);
+    const Polygon polygon = polygonOf({regularRing(3 + random.below(40), 1, {0, 0}, 0.1)});
+    Polygon all = polygon;
+    std::vector<double> points;
+    const uint32_t count = 20 + random.below(400);
+    for (uint32_t i = 0; i < count; ++i) {
+      const double radius = 0.49 * std::sqrt(random.unit()), angle = random.range(0, 6.28);
+      points.insert(points.end(), {radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    all.positions.insert(all.positions.end(), points.begin(), points.end());
+    sf::PolygonOptions options;
+    options.delaunay = options.verify = true;
+    sf::PolygonTriangulation result;
+    sf::Work work;
+    REQUIRE(
+        sf::triangulatePolygon({polygon.positions, polygon.starts, points}, options, work, result)
+            .ok());
+    CHECK(result.triangles.size() / 3 == polygon.vertexCount() - 2 + 2 * count);
+    CHECK(illegalEdges(all, result.triangles) == 0);
+  }
+}
+
 TEST_CASE("constrained delaunay: every family is covered, every edge legal") {
   Random random(4304);
   for (const Polygon& polygon :

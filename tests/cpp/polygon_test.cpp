@@ -1,9 +1,11 @@
 // Both triangulators against the table of families and the exact oracles.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "polygon/flood.h"
 #include "support/polygon_check.h"
 #include "support/polygon_families.h"
 
@@ -21,6 +23,22 @@ TEST_CASE("families: the exact judge finds in each what the table says") {
       break;
     }
   }
+}
+
+TEST_CASE("triangulatePolygon: with a trace, water rises along y, also where x has fewer minima") {
+  constexpr uint32_t kTeeth = 12;
+  Random random(5);
+  const Polygon comb = polygonOf({combRing(kTeeth, random)});
+  sf::PolygonOptions options;
+  options.trace = true;
+  sf::PolygonTriangulation traced;
+  sf::Work work;
+  REQUIRE(sf::triangulatePolygon({comb.positions, comb.starts, {}}, options, work, traced).ok());
+  const auto bridges = std::count_if(
+      traced.trace.begin(), traced.trace.end(),
+      [](const sf::FloodStep& step) { return step.action == uint32_t(sf::FloodAction::Bridge); });
+  // One from each valley between two teeth: it has two vertices, of which the lower one is a sag.
+  CHECK(bridges == kTeeth - 1);
 }
 
 TEST_CASE("triangulatePolygon: every family has the outcome in the table, by both methods") {

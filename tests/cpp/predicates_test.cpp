@@ -213,6 +213,40 @@ TEST_CASE("predicates: conventions of sign") {
   CHECK(sf::incircle(0, 0, 0, 1, 1, 0, 0.5, 0.5) == -1);
 }
 
+TEST_CASE("predicates: circles through lattice points of more and more bits") {
+  std::mt19937_64 g(5);
+  // Radii with many lattice points on their circles, and such of the next ones.
+  for (const int64_t radius : {65, 1105, 5525, 32045, 160225}) {
+    std::vector<std::pair<int64_t, int64_t>> on;
+    for (int64_t x = -radius; x <= radius; ++x) {
+      const int64_t y = std::llround(std::sqrt(double(radius * radius - x * x)));
+      if (x * x + y * y != radius * radius) continue;
+      on.push_back({x, y});
+      if (y != 0) on.push_back({x, -y});
+    }
+    REQUIRE(on.size() >= 36);
+    int wrong = 0, zeros = 0;
+    for (int round = 0; round < 4000; ++round) {
+      Vec3 p[4];
+      for (Vec3& v : p) {
+        const auto [x, y] = on[g() % on.size()];
+        v = {double(x), double(y), 0};
+      }
+      if (round % 2) p[g() % 4].x += g() % 2 ? 1 : -1;
+      // Away from the origin, and by halves.
+      for (Vec3& v : p) v = {(v.x + 3e5) / 0x1p20, (v.y - 1e5) / 0x1p20, 0};
+      const int exact = exactIncircle(p[0], p[1], p[2], p[3]);
+      zeros += exact == 0;
+      wrong +=
+          sf::incircle(p[0].x, p[0].y, p[1].x, p[1].y, p[2].x, p[2].y, p[3].x, p[3].y) != exact;
+    }
+    INFO("radius ", radius);
+    CHECK(zeros >= 2000);
+    CHECK(zeros < 3000);
+    CHECK(wrong == 0);
+  }
+}
+
 TEST_CASE("predicates: signs change with the arguments' order as determinants do") {
   for (const Maker& maker : kMakers) {
     INFO(std::string(maker.name));

@@ -78,6 +78,7 @@ bool PassSolver::solveSubset(const std::vector<uint32_t>& kept, uint64_t maxSpli
   const uint64_t before = task_.work.used();
   CandidateSet subset;
   std::vector<double> cost;
+  cost.reserve(kept.size());
   for (const uint32_t t : kept) cost.push_back(task_.triangleCost[t]);
   Optimum found;
   const bool good = buildSubset(task_.loops, task_.set, kept, task_.work, subset) &&

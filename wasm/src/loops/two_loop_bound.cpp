@@ -180,6 +180,7 @@ std::vector<uint32_t> TwoLoopBound::chordsByLength() const {
   }
   sf::sort(byLength.begin(), byLength.end());
   std::vector<uint32_t> chords;
+  chords.reserve(byLength.size());
   for (const auto& [length, e] : byLength) chords.push_back(e);
   return chords;
 }

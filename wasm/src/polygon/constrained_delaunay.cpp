@@ -1,7 +1,6 @@
 #include "polygon/constrained_delaunay.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/assert.h"
 #include "base/charge.h"
@@ -31,12 +30,12 @@ int levelOf(uint32_t t, uint32_t s) {
 
 }  // namespace
 
-bool ConstrainedDelaunay::run(const LinkedPolygon& loops, bool simple, Work& work,
-                              ArrayView<uint32_t> triangles, ArrayView<uint32_t> twins) {
+bool ConstrainedDelaunay::run(const LinkedPolygon& loops, Work& work, ArrayView<uint32_t> triangles,
+                              ArrayView<uint32_t> twins) {
   if (triangles.size() < 6) return true;
   Charge charge(work);
-  const uint64_t perCorner = 3 * sizeof(uint32_t) + (simple ? 1 : 3);
-  if (!charge.add(perCorner * triangles.size() + sizeof(Point2) * uint64_t(loops.at.size())))
+  constexpr uint64_t kPerCorner = 3 * sizeof(uint32_t);
+  if (!charge.add(kPerCorner * triangles.size() + sizeof(Point2) * uint64_t(loops.at.size())))
     return false;
   at_ = loops.at.data();
   metric_ = metricPoints(loops.at, scaled_, isExact_).data();
@@ -44,11 +43,7 @@ bool ConstrainedDelaunay::run(const LinkedPolygon& loops, bool simple, Work& wor
   corners_ = triangles.data(), twins_ = twins.data();
   waits_.assign(count_, false);
   if (stack_.size() < count_) stack_.resize(count_);
-  if (!simple) {
-    parts_.resize(count_ / 3);
-    std::iota(parts_.begin(), parts_.end(), 0);
-  }
-  return flipBlocks(simple, work) && giveUpEdges(simple, work);
+  return flipBlocks(work) && giveUpEdges(work);
 }
 
 inline void ConstrainedDelaunay::push(uint32_t h) {
@@ -57,7 +52,7 @@ inline void ConstrainedDelaunay::push(uint32_t h) {
 }
 
 /// Makes each block constrained Delaunay by itself; the edges between blocks become fixed.
-bool ConstrainedDelaunay::flipBlocks(bool simple, Work& work) {
+bool ConstrainedDelaunay::flipBlocks(Work& work) {
   halves_.clear();
   const uint32_t size = count_ <= kFewHalves ? kFewHalves : kBlockHalves;
   for (uint32_t first = 0; first < count_; first += size) {
@@ -67,7 +62,6 @@ bool ConstrainedDelaunay::flipBlocks(bool simple, Work& work) {
       if (g <= h || g >= kFixed) continue;
       if (g < end) {
         push(h);
-        if (!simple) join(h / 3, g / 3);
         continue;
       }
       const uint32_t i = uint32_t(halves_.size());
@@ -90,15 +84,14 @@ void ConstrainedDelaunay::orderEdges() {
   for (uint32_t i = 0; i < count; i += 2) order_[starts[level(i)]++] = i;
 }
 
-bool ConstrainedDelaunay::giveUpEdges(bool simple, Work& work) {
+bool ConstrainedDelaunay::giveUpEdges(Work& work) {
   orderEdges();
   for (const uint32_t i : order_) {
     const uint32_t h = halves_[i], g = halves_[i + 1];
     twins_[h] = g, twins_[g] = h;
-    const bool apart = simple || join(h / 3, g / 3);
     uint32_t changes = 1;
     if (isIllegal(h)) {
-      if (apart && isExact_) {
+      if (isExact_) {
         changes += merge(h);
       } else {
         push(h);
@@ -108,19 +101,6 @@ bool ConstrainedDelaunay::giveUpEdges(bool simple, Work& work) {
     if (!work.tick(50 * changes)) return false;
   }
   return true;
-}
-
-/// Makes the parts of two triangles one; false if they are already.
-bool ConstrainedDelaunay::join(uint32_t t, uint32_t s) {
-  const uint32_t a = partOf(t), b = partOf(s);
-  parts_[a] = b;
-  return a != b;
-}
-
-/// A name for the part of the polygon, between fixed edges, that triangle t belongs to.
-uint32_t ConstrainedDelaunay::partOf(uint32_t t) {
-  while (parts_[t] != t) t = parts_[t] = parts_[parts_[t]];
-  return t;
 }
 
 // Inline: calls would take a twentieth of the time.

@@ -12,9 +12,9 @@
 // triangulations", for merges between fixed edges; Lawson 1977, "Software for C1 surface
 // interpolation", for flips.
 // Differs: parts are separated by an edge that both have, not by a line, so that the circle starts at
-// its end. Where both sides are connected elsewhere, around a hole or an isolated point, they could
-// have a triangle in common: there, flips. Flips alone would take O(n) a vertex on smooth curves, since
-// water leaves thin triangles side by side.
+// its end; both sides may be connected elsewhere, around a hole or an isolated point. Flips alone would
+// take O(n) a vertex on smooth curves, since water leaves thin triangles side by side. PAPERS.md has why
+// merges work.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -28,13 +28,12 @@ class ConstrainedDelaunay {
  public:
   /// Makes the triangles constrained Delaunay: no node that a triangle sees past none of the loops'
   /// edges lies inside its circle, by exact incircle for coordinates in the range of the predicates.
-  ///   simple     whether the loops are one loop that does not touch itself, without islands
   ///   triangles  [3m] nodes, a triangulation of the loops; m stays
   ///   twins      [3m] as of findTwins (triangle_mesh.h); changed likewise
   /// Triangles that are Delaunay stay, also where more than three nodes lie on one circle.
   /// False, and both lists undefined, once `work` is to end. O(n log n) time for all but unnatural
   /// polygons; memory is charged, and kept for the next call.
-  bool run(const LinkedPolygon& loops, bool simple, Work& work, ArrayView<uint32_t> triangles,
+  bool run(const LinkedPolygon& loops, Work& work, ArrayView<uint32_t> triangles,
            ArrayView<uint32_t> twins);
 
  private:
@@ -44,9 +43,9 @@ class ConstrainedDelaunay {
     uint32_t vertex, outer;
   };
 
-  bool flipBlocks(bool simple, Work& work);
+  bool flipBlocks(Work& work);
   void orderEdges();
-  bool giveUpEdges(bool simple, Work& work);
+  bool giveUpEdges(Work& work);
   bool isIllegal(uint32_t h) const;
   uint32_t merge(uint32_t h);
   void takeLeft(uint32_t left, uint32_t right);
@@ -56,8 +55,6 @@ class ConstrainedDelaunay {
   void flip(uint32_t h);
   void push(uint32_t h);
   uint32_t flipStacked();
-  bool join(uint32_t t, uint32_t s);
-  uint32_t partOf(uint32_t t);
 
   uint32_t *corners_ = nullptr, *twins_ = nullptr;
   uint32_t count_ = 0;
@@ -68,7 +65,6 @@ class ConstrainedDelaunay {
   std::vector<uint32_t> order_;
   std::vector<Border> left_, right_;
   std::vector<uint32_t> free_;  // triangles taken away
-  std::vector<uint32_t> parts_;
   // The half-edges of edges to look at, none twice.
   std::vector<uint32_t> stack_;
   uint32_t waiting_ = 0;

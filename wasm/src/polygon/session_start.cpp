@@ -131,13 +131,12 @@ bool PolygonSession::flood(ArrayView<const uint32_t> ringNext, Work& work) {
   std::vector<uint32_t> around, twins;
   if (!sweep.run({xy[0], starts, xy[1]}, true, false, work, inside, seen).ok()) return false;
   if (!sweep.isPlain() || !flood.run(inside, seen, work, corners, nullptr, &twins)) return false;
-  const bool simple = starts.size() == 2 && islands.empty();
-  if (!delaunay.run(inside, simple, work, corners, twins)) return false;
+  if (!delaunay.run(inside, work, corners, twins)) return false;
   for (uint32_t& v : corners) v = numbers[v];
   takeComplement(inside, seen, outside, seenOutside);
   widenFrame(outside);
   if (!flood.run(outside, seenOutside, work, around, nullptr, &twins)) return false;
-  if (!delaunay.run(outside, false, work, around, twins)) return false;
+  if (!delaunay.run(outside, work, around, twins)) return false;
   const uint32_t count = uint32_t(numbers.size());
   for (const uint32_t v : around) corners.push_back(v < count ? numbers[v] : v - count);
   return mesh_.adopt(corners, ringNext, work);

@@ -180,7 +180,7 @@ bool TrapezoidTriangulator::improve(const LinkedPolygon& linked, const Visibilit
   mesh_.unused.clear();
   mesh_.edgeFrom.clear();
   if (!findTwins(mesh_.corners, nodes, work, mesh_.twins)) return false;
-  if (delaunay && !delaunay_.run(linked, false, work, mesh_.corners, mesh_.twins)) return false;
+  if (delaunay && !delaunay_.run(linked, work, mesh_.corners, mesh_.twins)) return false;
   return work.going() && insertIslands(linked, seen, work);
 }
 

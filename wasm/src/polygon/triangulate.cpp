@@ -41,7 +41,6 @@ struct PolygonTriangulator::State {
   Certificate certificate;
   std::vector<uint32_t> starts;
   std::vector<uint32_t> twins;  // of the triangles found last, if asked for
-  bool isSimple = false;        // the polygon is one ring that does not touch itself
 
   Outcome append(const PolygonView& polygon, const PolygonOptions& options, Work& work,
                  std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace);
@@ -74,7 +73,7 @@ bool PolygonTriangulator::State::triangulateLoops(const PolygonOptions& options,
     if (options.delaunay && !findTwins(added(), uint32_t(loops.at.size()), work, twins))
       return false;
   }
-  return !options.delaunay || delaunay.run(loops, isSimple, work, added(), twins);
+  return !options.delaunay || delaunay.run(loops, work, added(), twins);
 }
 
 /// Appends the triangles of one polygon, as its vertices.
@@ -94,7 +93,6 @@ Outcome PolygonTriangulator::State::append(const PolygonView& polygon,
   // Trapezoids lie along x, and a trace tells of heights along y.
   outcome = sweep.run(polygon, sagsOnly, sagsOnly && !trace, work, loops, seen);
   if (!outcome.ok()) return outcome;
-  isSimple = polygon.starts.size() == 2 && polygon.points.empty() && sweep.isPlain();
   bool done = triangulateLoops(options, work, triangles, trace);
   if (done && loops.at.size() > n) {
     for (size_t i = before; i < triangles.size(); ++i) triangles[i] = loops.vertex[triangles[i]];
