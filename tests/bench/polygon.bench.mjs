@@ -152,8 +152,8 @@ if (second === '--case') {
   const wanted = polygonCases().filter(({ id }) => words.every((word) => id.includes(word)));
   console.log(kColumns);
   const results = wanted.map((c) => {
-    const { id, family, ratio, limit, repairs } = c;
-    const result = { id, family, ratio, limit, repairs, ...measureApart(module, c) };
+    const { id, family, ratio, limit, repairs, title } = c;
+    const result = { id, family, ratio, limit, repairs, title, ...measureApart(module, c) };
     console.log(row(result));
     return result;
   });

@@ -38,6 +38,8 @@ export interface PolygonCase {
   readonly repairs?: boolean;
   /** Whether angles, degrees and strips are looked at. */
   readonly quality?: boolean;
+  /** What it is called in the README's table, where it is in that. */
+  readonly title?: string;
 }
 
 const kSeed = 20_250;
@@ -86,13 +88,14 @@ export function polygonCases(): PolygonCase[] {
       make: () => ({ polygons: Array.from({ length: 5000 }, () => smallPolygon(random)) }),
       ratio: 0.8,
       oneByOne: true,
+      title: '5 000 polygons of 4 to 108 vertices, at once',
     },
     ...['110m', '50m', '10m'].map((scale) => ({
       id: `countries ${scale}`,
       family: 'countries',
       make: () => ({ polygons: countries(scale) }),
       validOnly: true,
-      ...(scale === '50m' && { ratio: 0.6, oneByOne: true }),
+      ...(scale === '50m' && { ratio: 0.6, oneByOne: true, title: 'the countries of the world, 1 : 50 million' }),
     })),
     {
       id: 'all countries 50m',
@@ -104,10 +107,17 @@ export function polygonCases(): PolygonCase[] {
       ...upTo(1e4, 0.6)(n),
       ...(n === 1e6 && { limit: { seconds: 3, megabytes: 300 } }),
       quality: n === 1000,
+      ...(n >= 1e3 && n !== 1e5 && { title: 'random polygon' }),
     })),
     ...series('star', kLarge, (n, r) => [starRing(n, 1, r)], upTo(1e4, 0.6)),
-    ...series('blob', kLarge, (n, r) => [blobRing(n, r)], upTo(1e4, 0.6)),
-    ...series('comb', kLarge, (n, r) => [combRing(Math.round(n / 3), r)], upTo(1e4, 0.6)),
+    ...series('blob', kLarge, (n, r) => [blobRing(n, r)], (n) => ({
+      ...upTo(1e4, 0.6)(n),
+      ...(n === 1e4 && { title: 'smooth curve' }),
+    })),
+    ...series('comb', kLarge, (n, r) => [combRing(Math.round(n / 3), r)], (n) => ({
+      ...upTo(1e4, 0.6)(n),
+      ...(n === 1e4 && { title: 'comb' }),
+    })),
     ...series('double comb', kLarge, (n, r) => [doubleCombRing(Math.round(n / 6), r)], upTo(1e4, 0.6)),
     ...series('interleaved comb', kLarge, (n, r) => [interleavedCombRing(Math.round(n / 6), r)], (n) =>
       n === 1e4 ? { ratio: 0.1 } : {},
@@ -118,6 +128,7 @@ export function polygonCases(): PolygonCase[] {
     ...series('turned holes', [1, 10, 100, 1000, 10_000], (n) => gridOf(n, false), (n) => ({
       ...(n >= 1000 && { ratio: 0.1 }),
       ...(n === 10_000 && { limit: { seconds: 0.1 } }),
+      ...(n >= 1000 && { title: `${n === 1000 ? '1 000' : '10 000'} square holes, each turned` }),
     })),
     ...series('stars in holes', [3, 10, 32], (n, r) => starsInHoles(n, n, 20, r)),
     ...[10, 20, 40].map((columns): PolygonCase => ({

@@ -19,6 +19,21 @@ export function row({ id, n, seconds, problem }) {
   return line(id, [String(n), ...kShown.map((name) => ms(seconds[name]))]);
 }
 
+const kInTable = { flooding: 'soapfilm', delaunay: 'soapfilm, Delaunay', earcut: 'earcut', 'earcut, refined': 'earcut, refined', libtess: 'libtess' };
+
+/** The README's table. */
+export function polygonTable({ results }) {
+  const time = (seconds) => (typeof seconds === 'number' ? `${ms(seconds)} ms` : '');
+  const cells = ({ title, n, seconds }) => [
+    title,
+    String(n).replace(/\B(?=(\d{3})+$)/g, ' '),
+    ...Object.keys(kInTable).map((name) => time(seconds[name])),
+  ];
+  const head = ['polygons', 'vertices', ...Object.values(kInTable)];
+  const rows = [head, head.map(() => '---'), ...results.filter((c) => c.title && c.seconds).map(cells)];
+  return rows.map((row) => `| ${row.join(' | ')} |`).join('\n');
+}
+
 /** Least squares for time = factor · n^exponent over a family's cases of 1000 vertices and more. */
 function exponent(cases, name) {
   const points = cases

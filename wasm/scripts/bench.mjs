@@ -3,7 +3,8 @@
 //   filter     only the cases whose name holds all these words
 //   --figures  all cases and the suites of smaller spaces; then draws the figures and the README's table anew
 //   --draw     draws them from the last results
-// npm run bench -- polygons [filter…]: triangulators of polygons, ours and others.
+// npm run bench -- polygons [filter… | --figures]: triangulators of polygons, ours and others; with --figures
+// all cases, and the README's table of them anew.
 import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { availableParallelism, loadavg } from 'node:os';
 import path from 'node:path';
@@ -21,6 +22,7 @@ import {
   row,
   summary,
 } from '../../tests/bench/report.mjs';
+import { polygonTable } from '../../tests/bench/polygon_report.mjs';
 import { buildLibrary, buildPreset } from './build.mjs';
 import { Failure, buildRoot, main, root, run, say } from './run.mjs';
 import { checkNode, ensureTools } from './tools.mjs';
@@ -160,12 +162,19 @@ async function draw() {
   mkdirSync(figures, { recursive: true });
   await run(process.execPath, [path.join(bench, 'figures.mjs'), results, figures]);
   await takePictures();
-  const readme = path.join(root, 'README.md');
-  const marks = /(<!-- npm run bench -- --figures -->\n)[\s\S]*?(\n<!-- end -->)/;
-  const text = readFileSync(readme, 'utf8');
-  if (!marks.test(text)) throw new Failure('README.md has lost the marks around its table of figures');
-  writeFileSync(readme, text.replace(marks, (_, begin, end) => begin + readmeTable(found) + end));
+  intoReadme('npm run bench -- --figures', readmeTable(found));
   say(`Written: ${path.relative(root, figures)}, README.md`);
+}
+
+/** Puts a table between the README's marks for what measures it. */
+function intoReadme(command, table) {
+  const readme = path.join(root, 'README.md');
+  const [mark, end] = [`<!-- ${command} -->\n`, '\n<!-- end -->'];
+  const text = readFileSync(readme, 'utf8');
+  const from = text.indexOf(mark) + mark.length;
+  const to = text.indexOf(end, from);
+  if (from < mark.length || to < 0) throw new Failure(`README.md has lost its marks for ${command}`);
+  writeFileSync(readme, text.slice(0, from) + table + text.slice(to));
 }
 
 async function takePictures() {
@@ -192,8 +201,13 @@ async function measurePolygons(words) {
   mkdirSync(folder, { recursive: true });
   const module = await compiled('polygon_cases');
   const file = path.join(folder, 'polygons.json');
-  await run(process.execPath, [path.join(bench, 'polygon.bench.mjs'), module, file, ...words]);
+  const wanted = words.filter((word) => word !== '--figures');
+  await run(process.execPath, [path.join(bench, 'polygon.bench.mjs'), module, file, ...wanted]);
   say(`\nWritten: ${path.relative(root, file)}`);
+  if (words.length === wanted.length) return;
+  if (wanted.length > 0) throw new Failure('The table is of all cases: npm run bench -- polygons --figures');
+  intoReadme('npm run bench -- polygons --figures', polygonTable(JSON.parse(readFileSync(file, 'utf8'))));
+  say('Written: README.md');
 }
 
 await main(async () => {
