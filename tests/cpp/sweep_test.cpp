@@ -111,8 +111,19 @@ TEST_CASE(
   CHECK(turned < compared - 60);
 
   Random random(1);
-  CHECK(sweepOf(polygonOf({combRing(50, random)}), true, {}, true).loops.turned);
+  const Polygon comb = polygonOf({combRing(50, random)});
+  CHECK(sweepOf(comb, true, {}, true).loops.turned);
   CHECK(!sweepOf(kSquare, true, {}, true).loops.turned);
+
+  // Of two faults the lower one is told, not the one farther to the left.
+  Polygon faulty = comb;
+  faulty.positions[2 * 3 + 1] = -2, faulty.positions[2 * 60 + 1] = -1;
+  const sf::Outcome fixed = sweepOf(faulty, true).outcome,
+                    either = sweepOf(faulty, true, {}, true).outcome;
+  REQUIRE(fixed.status == sf::Status::SelfIntersecting);
+  CHECK(either.status == fixed.status);
+  CHECK(either.vertex == fixed.vertex);
+  CHECK(either.otherVertex == fixed.otherVertex);
 }
 
 TEST_CASE("sweep: thousands of edges side by side, where the tree of edges is used") {

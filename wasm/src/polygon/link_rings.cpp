@@ -219,6 +219,7 @@ void frameAround(const PolygonView& polygon, Point2 corners[4]) {
 
 Outcome linkRings(const PolygonView& polygon, bool mayTurn, bool complement, LinkedPolygon& linked,
                   std::vector<uint8_t>& reversed) {
+  linked.turned = false;
   if (Outcome bad = checkStarts(polygon); !bad.ok()) return bad;
   if (!copyScaled(polygon, mayTurn, complement, linked)) return firstNotFinite(polygon);
   const uint32_t n = uint32_t(polygon.positions.size() / 2), m = uint32_t(linked.at.size());

@@ -47,7 +47,10 @@ void PlaneSweep::findEqual(std::vector<uint32_t>& same) const {
 
 Outcome PlaneSweep::run(const PolygonView& polygon, bool sagsOnly, bool mayTurn, Work& work,
                         LinkedPolygon& linked, Visibility& seen) {
-  return run(polygon, false, sagsOnly, mayTurn, work, linked, seen);
+  const Outcome outcome = run(polygon, false, sagsOnly, mayTurn, work, linked, seen);
+  if (outcome.ok() || !linked.turned || !work.going()) return outcome;
+  // Of several faults the same one is told, whichever way the sweep has run.
+  return run(polygon, false, sagsOnly, false, work, linked, seen);
 }
 
 Outcome PlaneSweep::runComplement(const PolygonView& polygon, Work& work, LinkedPolygon& linked,

@@ -43,7 +43,7 @@ class PlaneSweep {
   /// Checks the polygon and links its loops: outer ring counter-clockwise, holes clockwise,
   /// re-linked wherever rings touch, with a node for each corner and the kind of every node.
   ///   mayTurn  the sweep may run along x, if the polygon has far fewer local minima and maxima that
-  ///            way: linked.turned
+  ///            way: linked.turned. What is wrong is told as by a sweep along y
   ///   seen   what nodes see; if `sagsOnly`, `order` has bottoms, sags and islands alone, and only
   ///          their `left` is set: for bottoms the edge to the left outside the polygon
   /// Status Ok, or, if the polygon is not valid, the first of these three that applies, then of the
