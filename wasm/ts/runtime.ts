@@ -282,13 +282,13 @@ function callIn<const T extends readonly ArrayType[]>(
     if (arrays && borrows) called.lent = handle;
     else if (handle !== 0) find('sf_result_free')(handle);
   }
-  const culprits = arrays ?? new Uint32Array(memory.buffer, where, 4).slice();
+  const culprits = new Uint32Array(memory.buffer, where, 4).slice();
   find('sf_free')(block);
   if (thisRun.stop && !(thisRun.stop.gently && arrays)) throw thisRun.stop.reason;
   if (!arrays) {
     throw status === kStopped
       ? new SoapfilmError('cancelled', 'The work was stopped')
-      : explain(status, culprits as Uint32Array);
+      : explain(status, culprits);
   }
   return { found: status === kOk, arrays };
 }

@@ -219,7 +219,10 @@ export interface PolygonOptions {
    * points about which its rings wind an odd number of times, or any number but 0.
    */
   readonly repair?: 'none' | 'even-odd' | 'nonzero';
-  /** Whether to record the actions of flooding, for one polygon. Default `false`. */
+  /**
+   * Whether to record the actions of flooding, for one polygon. Water then rises along y, which it need
+   * not do otherwise, so the triangles may be others than without. Default `false`.
+   */
   readonly trace?: boolean;
   /**
    * Whether the typed arrays of the result may be views of the core's memory, which spares a copy: they

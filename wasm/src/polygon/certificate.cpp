@@ -19,7 +19,7 @@ class OpenEdges {
       if (slots_[i] == opposite) return takeOut(i);
       if (slots_[i] == kFree) break;
     }
-    if (2 * ++count_ > slots_.size()) grow();
+    if (2 * ++count_ > slots_.size() && !grow()) return;
     insert(key(u, v));
   }
   bool isZero() const { return count_ == 0; }
@@ -58,12 +58,14 @@ class OpenEdges {
       i = j;
     }
   }
-  void grow() {
-    if (!charge_.add(sizeof(uint64_t) * slots_.size())) return;  // work ends, and with it certify
+  /// False if memory is short: work ends, and with it certify.
+  bool grow() {
+    if (!charge_.add(sizeof(uint64_t) * slots_.size())) return false;
     std::vector<uint64_t> old(2 * slots_.size(), kFree);
     old.swap(slots_);
     for (const uint64_t k : old)
       if (k != kFree) insert(k);
+    return true;
   }
 
   Charge& charge_;

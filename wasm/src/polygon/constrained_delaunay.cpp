@@ -34,7 +34,7 @@ bool ConstrainedDelaunay::run(const LinkedPolygon& loops, Work& work, ArrayView<
                               ArrayView<uint32_t> twins) {
   if (triangles.size() < 6) return true;
   Charge charge(work);
-  constexpr uint64_t kPerCorner = 3 * sizeof(uint32_t);
+  constexpr uint64_t kPerCorner = 4 * sizeof(uint32_t);
   if (!charge.add(kPerCorner * triangles.size() + sizeof(Point2) * uint64_t(loops.at.size())))
     return false;
   at_ = loops.at.data();
@@ -42,7 +42,10 @@ bool ConstrainedDelaunay::run(const LinkedPolygon& loops, Work& work, ArrayView<
   count_ = uint32_t(triangles.size());
   corners_ = triangles.data(), twins_ = twins.data();
   waits_.assign(count_, false);
-  if (stack_.size() < count_) stack_.resize(count_);
+  waiting_ = 0;
+  // Flips stay within a block, unless they take the place of merges.
+  const uint32_t room = isExact_ ? kFewHalves : count_;
+  if (stack_.size() < room) stack_.resize(room);
   return flipBlocks(work) && giveUpEdges(work);
 }
 
@@ -68,7 +71,7 @@ bool ConstrainedDelaunay::flipBlocks(Work& work) {
       halves_.push_back(h), halves_.push_back(g);
       twins_[h] = kFixed + i + 1, twins_[g] = kFixed + i;
     }
-    if (!work.tick(50 * (end - first + flipStacked()))) return false;
+    if (!work.tick(50 * (end - first)) || !flipStacked(work)) return false;
   }
   return true;
 }
@@ -95,7 +98,7 @@ bool ConstrainedDelaunay::giveUpEdges(Work& work) {
         changes += merge(h);
       } else {
         push(h);
-        changes += flipStacked();
+        if (!flipStacked(work)) return false;
       }
     }
     if (!work.tick(50 * changes)) return false;
@@ -130,8 +133,9 @@ void ConstrainedDelaunay::flip(uint32_t h) {
   twins_[h1] = g1, twins_[g1] = h1;
 }
 
-/// Flips the edges of the stack that are illegal, and all that become so. Returns the number of flips.
-uint32_t ConstrainedDelaunay::flipStacked() {
+/// Flips the edges of the stack that are illegal, and all that become so.
+bool ConstrainedDelaunay::flipStacked(Work& work) {
+  constexpr uint32_t kTick = 1024;
   uint32_t flips = 0;
   while (waiting_ > 0) {
     const uint32_t h = stack_[--waiting_], g = twins_[h];
@@ -140,9 +144,9 @@ uint32_t ConstrainedDelaunay::flipStacked() {
     flip(h);
     for (const uint32_t e : {h, prevInTriangle(h), g, prevInTriangle(g)})
       if (twins_[e] < kFixed && !waits_[e] && !waits_[twins_[e]]) push(e);
-    ++flips;
+    if (++flips % kTick == 0 && !work.tick(50 * kTick)) return false;
   }
-  return flips;
+  return work.tick(50 * (flips % kTick));
 }
 
 /// A triangle in the place of one taken away: its first half-edge.

@@ -54,7 +54,7 @@ class ConstrainedDelaunay {
   void setTwin(uint32_t h, uint32_t g);
   void flip(uint32_t h);
   void push(uint32_t h);
-  uint32_t flipStacked();
+  bool flipStacked(Work& work);
 
   uint32_t *corners_ = nullptr, *twins_ = nullptr;
   uint32_t count_ = 0;

@@ -17,18 +17,19 @@ bool Flood::run(const LinkedPolygon& loops, const Visibility& seen, Work& work,
   const uint64_t perNode = sizeof(Node) + (twins ? 4 * sizeof(uint32_t) : 0);
   if (!charge.add((m + 2 * bridges) * perNode)) return false;
   // They only grow: what is there needs no clearing.
-  if (nodes_.size() < m + 2 * bridges) nodes_.resize(m + 2 * bridges);
+  const size_t most = m + 2 * bridges;
+  if (nodes_.size() < most) nodes_.resize(most);
   twins_ = nullptr;
   if (twins) {
-    if (below_.size() < nodes_.size()) below_.resize(nodes_.size());
-    std::memset(below_.data(), 0xFF, (m + 2 * bridges) * sizeof(uint32_t));  // kNone
+    if (below_.size() < most) below_.resize(most);
+    std::memset(below_.data(), 0xFF, most * sizeof(uint32_t));  // kNone
     bridges_.clear();
-    twins->resize(3 * (m + 2 * bridges));
+    twins->resize(3 * most);
     twins_ = twins->data();
   }
   // Every triangle takes one corner away; a bridge adds two.
   const size_t before = triangles.size();
-  triangles.resize(before + 3 * (m + 2 * bridges));
+  triangles.resize(before + 3 * most);
   out_ = outBegin_ = triangles.data() + before;
   trace_ = trace;
   const bool done = begin(loops, seen, work) && floodGorges(work);

@@ -23,7 +23,7 @@ double sideOfBox(double largest, int& exponent) {
 void widenFrame(LinkedPolygon& complement) {
   Point2* corners = complement.at.data() + complement.at.size() - 4;
   int exponent;
-  const double side = sideOfBox(corners[2].x / 2, exponent);
+  const double side = sideOfBox(std::fabs(corners[2].x) / 2, exponent);
   for (uint32_t k = 0; k < 4; ++k)
     corners[k] = {std::copysign(side, corners[k].x), std::copysign(side, corners[k].y)};
 }

@@ -63,8 +63,9 @@ class PlaneSweep {
   Outcome run(const PolygonView& polygon, bool sagsOnly, bool mayTurn, Work& work,
               LinkedPolygon& linked, Visibility& seen);
 
-  /// The same, sags only and either way, for what is left of a frame around the polygon when the polygon is taken
-  /// out of it; nodes n to n + 3 are the frame's corners. Isolated points are left out.
+  /// The same, sags only and either way, for what is left of a frame around the polygon when the
+  /// polygon is taken out of it; nodes n to n + 3 are the frame's corners. Isolated points are left
+  /// out.
   Outcome runComplement(const PolygonView& polygon, Work& work, LinkedPolygon& linked,
                         Visibility& seen);
 

@@ -40,7 +40,7 @@ struct PolygonTriangulator::State {
   Visibility seen, outside;
   Certificate certificate;
   std::vector<uint32_t> starts;
-  std::vector<uint32_t> twins;  // of the triangles found last, if asked for
+  std::vector<uint32_t> twins;  // set by triangulateLoops, if asked for
 
   Outcome append(const PolygonView& polygon, const PolygonOptions& options, Work& work,
                  std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace);

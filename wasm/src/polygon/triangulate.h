@@ -18,10 +18,11 @@ struct PolygonOptions {
   PolygonMethod method = PolygonMethod::Flooding;
   Repair repair = Repair::None;  // what to make of polygons that are not valid: an error, or the
                                  // points of odd, or of non-zero, winding number
-  bool delaunay = false;         // constrained Delaunay triangles: edges are flipped until they are
+  bool delaunay = false;         // constrained Delaunay triangles
   bool strips = false;           // also as triangle strips
   bool verify = false;           // certify the result (polygon/certificate.h)
-  bool trace = false;            // record the actions of flooding
+  bool trace = false;            // record the actions of flooding, for which water rises along y:
+                                 // the triangles may be others than without
 };
 
 /// One action of flooding, for teaching; see polygon/flood.h.
