@@ -108,7 +108,7 @@ function qualities(polygons, points) {
 async function measureCase(c) {
   const peak = watchMemory();
   await load({ parts: ['polygons'] });
-  const { polygons: all, points } = c.make();
+  const { polygons: all, points } = c.make(kSeed);
   const errors = c.validOnly ? triangulatePolygons(all, { skipInvalid: true }).errors : [];
   const invalid = new Set(errors.map(({ polygon }) => polygon));
   const polygons = all.filter((_, p) => !invalid.has(p));
@@ -119,8 +119,13 @@ async function measureCase(c) {
     const takesPoints = ['flooding', 'trapezoids', 'delaunay', 'verify', 'strips'].includes(name);
     return points ? takesPoints : n / polygons.length <= kEngines[name].most;
   });
+  const others = Array.from({ length: (c.inputs ?? 1) - 1 }, (_, i) => c.make(kSeed + 1 + i).polygons);
   const racers = (wanted) =>
-    names.filter(wanted).map((name) => [name, kEngines[name].prepare(polygons, inner, c.repairs)]);
+    names.filter(wanted).map((name) => {
+      const runs = [polygons, ...others].map((input) => kEngines[name].prepare(input, inner, c.repairs));
+      let next = 0;
+      return [name, () => runs[next++ % runs.length]()];
+    });
   // Flooding first, so that the peak is its own; the slower ones last, since a case may take too long.
   const { seconds, peakBytes } = race(racers((name) => kQuick.has(name)), peak);
   const found = { n, polygons: polygons.length, seconds, peakBytes };
@@ -144,7 +149,7 @@ function measureApart(module, c) {
 }
 
 const [, , module, second, ...words] = process.argv;
-const { polygonCases } = await import(pathToFileURL(module).href);
+const { polygonCases, kSeed } = await import(pathToFileURL(module).href);
 if (second === '--case') {
   const c = polygonCases().find(({ id }) => id === words.join(' '));
   await measureCase(c);
