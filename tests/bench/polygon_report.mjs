@@ -23,15 +23,17 @@ const kInTable = { flooding: 'soapfilm', delaunay: 'soapfilm, Delaunay', earcut:
 
 /** The README's table. */
 export function polygonTable({ results }) {
-  const time = (seconds) => (typeof seconds === 'number' ? `${ms(seconds)} ms` : '');
+  const told = (seconds) => (seconds < 1 ? `${ms(seconds)} ms` : `${seconds.toPrecision(3)} s`);
+  const time = (seconds) => (typeof seconds === 'number' ? told(seconds) : '');
   const cells = ({ title, n, seconds }) => [
     title,
     String(n).replace(/\B(?=(\d{3})+$)/g, ' '),
     ...Object.keys(kInTable).map((name) => time(seconds[name])),
   ];
   const head = ['polygons', 'vertices', ...Object.values(kInTable)];
-  const rows = [head, head.map(() => '---'), ...results.filter((c) => c.title && c.seconds).map(cells)];
-  return rows.map((row) => `| ${row.join(' | ')} |`).join('\n');
+  const tableRow = (row) => `| ${row.join(' | ')} |`;
+  const rows = results.filter((c) => c.title && c.seconds).map(cells);
+  return [tableRow(head), `${'|---'.repeat(head.length)}|`, ...rows.map(tableRow)].join('\n');
 }
 
 /** Least squares for time = factor · n^exponent over a family's cases of 1000 vertices and more. */
