@@ -66,10 +66,9 @@ sf::Certificate floodedBothWays(const Polygon& polygon, bool& done) {
   const bool hinted = polygon.vertexCount() % 2 == 0;
   const auto take = [&](sf::Outcome outcome, std::vector<uint32_t>& triangles,
                         std::vector<uint32_t>& twins) {
-    if (!outcome.ok() ||
-        !flood.run(loops, seen, work, triangles, nullptr, hinted ? &twins : nullptr))
-      return false;
-    for (uint32_t& v : triangles) v = loops.vertex[v];
+    if (!outcome.ok() || !flood.run(loops, seen, work, nullptr, hinted)) return false;
+    for (const uint32_t v : flood.triangles()) triangles.push_back(loops.vertex[v]);
+    if (hinted) flood.twins().toPlain(uint32_t(triangles.size())), twins = flood.twins().of;
     triangles.insert(triangles.end(), loops.flat.begin(), loops.flat.end());
     return true;
   };

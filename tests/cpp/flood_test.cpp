@@ -27,7 +27,8 @@ struct Flooded {
     sf::Work work;
     const sf::PolygonView view{polygon.positions, polygon.starts, points};
     if (!sweep.run(view, true, true, work, loops, seen).ok()) return;
-    done = flood.run(loops, seen, work, triangles, &trace);
+    done = flood.run(loops, seen, work, &trace);
+    triangles.assign(flood.triangles().begin(), flood.triangles().end());
     CHECK(work.used() == 0);
   }
   /// With input vertices, and the triangles where links and edges differ.
@@ -58,11 +59,14 @@ struct Flooded {
 void checkTwins(const Flooded& flooded) {
   sf::Flood flood;
   sf::Work work;
-  std::vector<uint32_t> triangles, twins, expected;
-  REQUIRE(flood.run(flooded.loops, flooded.seen, work, triangles, nullptr, &twins));
-  CHECK(triangles == flooded.triangles);
+  std::vector<uint32_t> expected;
+  REQUIRE(flood.run(flooded.loops, flooded.seen, work, nullptr, true));
+  const sf::ArrayView<uint32_t> triangles = flood.triangles();
+  CHECK(std::equal(triangles.begin(), triangles.end(), flooded.triangles.begin(),
+                   flooded.triangles.end()));
   REQUIRE(sf::findTwins(triangles, uint32_t(flooded.loops.at.size()), work, expected));
-  CHECK(twins == expected);
+  flood.twins().toPlain(uint32_t(triangles.size()));
+  CHECK(flood.twins().of == expected);
 }
 
 void check(const Polygon& polygon) {
@@ -193,9 +197,8 @@ TEST_CASE("flooding: loops that no sweep has passed end in a forbidden state, no
     }
     sf::Flood flood;
     sf::Work work;
-    std::vector<uint32_t> triangles;
-    refused += !flood.run(loops, flooded.seen, work, triangles, nullptr);
-    CHECK(triangles.size() <= 3 * (loops.at.size() + 2 * polygon.ringCount() + loops.at.size()));
+    refused += !flood.run(loops, flooded.seen, work);
+    CHECK(flood.triangles().size() <= 3 * (loops.at.size() + 2 * polygon.ringCount() + loops.at.size()));
   }
   CHECK(refused > 100);
 }

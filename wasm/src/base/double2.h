@@ -12,5 +12,6 @@ inline Double2 swapped(Double2 v) { return __builtin_shufflevector(v, v, 1, 0); 
 inline Double2 magnitudes(Double2 v) { return (Double2)((Int2)v & INT64_MAX); }
 /// The greater numbers of both; of `a`, those that are NaN are passed over.
 inline Double2 greater(Double2 a, Double2 b) { return a > b ? a : b; }
+inline Double2 lesser(Double2 a, Double2 b) { return a < b ? a : b; }
 
 }  // namespace sf

@@ -12,9 +12,6 @@
 namespace sf {
 namespace {
 
-// Twins from here on are no half-edges: kNone at the loops, else kFixed + i for what halves_[i], the
-// other half-edge of a fixed edge being that of i ^ 1.
-constexpr uint32_t kFixed = 1u << 31;
 // So many triangles next to each other in the list, to the power of two, are a block; so few are one.
 // Within a block flips are fewer than what merges have to prepare, also on smooth curves; measured.
 constexpr int kBlockBits = 5;
@@ -30,23 +27,96 @@ int levelOf(uint32_t t, uint32_t s) {
 
 }  // namespace
 
-bool ConstrainedDelaunay::run(const LinkedPolygon& loops, Work& work, ArrayView<uint32_t> triangles,
-                              ArrayView<uint32_t> twins) {
-  if (triangles.size() < 6) return true;
-  Charge charge(work);
-  constexpr uint64_t kPerCorner = 4 * sizeof(uint32_t);
-  if (!charge.add(kPerCorner * triangles.size() + sizeof(Point2) * uint64_t(loops.at.size())))
-    return false;
+bool ConstrainedDelaunay::begin(const LinkedPolygon& loops, ArrayView<uint32_t> triangles,
+                                ClosableTwins& twins, Charge& charge) {
+  constexpr uint64_t kPerCorner = 5 * sizeof(uint32_t);
+  count_ = uint32_t(triangles.size());
+  if (!charge.add(kPerCorner * count_ + sizeof(Point2) * uint64_t(loops.at.size()))) return false;
   at_ = loops.at.data();
   metric_ = metricPoints(loops.at, scaled_, isExact_).data();
-  count_ = uint32_t(triangles.size());
-  corners_ = triangles.data(), twins_ = twins.data();
+  corners_ = triangles.data(), twins_ = twins.of.data();
+  all_ = &twins;
+  // Flips stay within a block, unless they take the place of merges.
+  const size_t room = isExact_ ? kFewHalves : count_, row = count_ / 3 + 2;
+  if (stack_.size() < room) stack_.resize(room);
+  if (free_.items.size() < row)
+    left_.items.resize(row), right_.items.resize(row), free_.items.resize(row);
+  return true;
+}
+
+bool ConstrainedDelaunay::run(const LinkedPolygon& loops, Work& work, ArrayView<uint32_t> triangles,
+                              ClosableTwins& twins) {
+  if (triangles.size() < 6) return true;
+  Charge charge(work);
+  if (!begin(loops, triangles, twins, charge)) return false;
   waits_.assign(count_, false);
   waiting_ = 0;
-  // Flips stay within a block, unless they take the place of merges.
-  const uint32_t room = isExact_ ? kFewHalves : count_;
-  if (stack_.size() < room) stack_.resize(room);
-  return flipBlocks(work) && giveUpEdges(work);
+  return improveBlocks(work, [&](uint32_t first, uint32_t end) {
+    return flipBlock(first, end, work);
+  });
+}
+
+bool ConstrainedDelaunay::runFlooded(const LinkedPolygon& loops, Work& work, Flood& flood) {
+  const ArrayView<uint32_t> triangles = flood.triangles();
+  if (triangles.size() < 6) return true;
+  Charge charge(work);
+  if (!begin(loops, triangles, flood.twins(), charge)) return false;
+  if (!isExact_) return run(loops, work, triangles, flood.twins());
+  return improveBlocks(work, [&](uint32_t first, uint32_t end) {
+    uint32_t flips = 0;
+    for (uint32_t t = first; t < end; t += 3) flips += insert(t);
+    return work.tick(20 * (end - first) + 50 * flips);
+  });
+}
+
+/// Makes each block constrained Delaunay by itself, by `improve`, and then the whole.
+template <class Improve>
+bool ConstrainedDelaunay::improveBlocks(Work& work, Improve improve) {
+  const uint32_t size = count_ <= kFewHalves ? kFewHalves : kBlockHalves;
+  for (uint32_t first = 0; first < count_; first += size) {
+    const uint32_t end = std::min(first + size, count_);
+    for (uint32_t h = first; h < end && end < count_; ++h)
+      if (twins_[h] >= end && twins_[h] < count_) all_->close(h), twins_ = all_->of.data();
+    if (!improve(first, end)) return false;
+  }
+  return giveUpEdges(work);
+}
+
+/// Whether the apex across the edge below the first corner of triangle t, of half-edges t to t + 2, lies
+/// inside its circle; false where nothing before half-edge `end` is across. Without a branch that could
+/// not be foretold, so that two of these are computed at once.
+inline __attribute__((always_inline)) bool ConstrainedDelaunay::isIllegalBelow(uint32_t t,
+                                                                              uint32_t end) const {
+  const uint32_t g = twins_[t + 1];
+  const bool open = g < end;
+  const Point2 a = metric_[corners_[t + 1]], b = metric_[corners_[t + 2]], c = metric_[corners_[t]];
+  const Point2 d = metric_[corners_[prevInTriangle(open ? g : t + 1)]];
+  const CircleSide side = sideOfCircle(a, b, c, d);
+  bool inside = side.sine < 0;
+  if (open & !side.isCertain) inside = incircle(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y) > 0;
+  return inside & open;
+}
+
+/// Inserts the first corner of triangle t into the triangles before it in the block: flips edges into
+/// ones from it, until none that it sees is illegal. Returns how many.
+uint32_t ConstrainedDelaunay::insert(uint32_t t) {
+  uint32_t* const stack = stack_.data();
+  const uint32_t end = t + 3;
+  uint32_t flips = 0;
+  stack[0] = t;
+  for (uint32_t count = isIllegalBelow(t, end); count > 0; ++flips) {
+    t = stack[--count];
+    const uint32_t g = twins_[t + 1], g1 = nextInTriangle(g), g2 = prevInTriangle(g);
+    const uint32_t s = std::min(std::min(g, g1), g2);
+    const uint32_t d = corners_[g2], twin1 = twins_[g1], twin2 = twins_[g2];
+    corners_[s] = corners_[t], corners_[s + 1] = d, corners_[s + 2] = corners_[t + 2];
+    corners_[t + 2] = d;
+    pair(s + 2, twins_[t + 2]), pair(t + 2, s);
+    pair(t + 1, twin1), pair(s + 1, twin2);
+    stack[count] = t, count += isIllegalBelow(t, end);
+    stack[count] = s, count += isIllegalBelow(s, end);
+  }
+  return flips;
 }
 
 inline void ConstrainedDelaunay::push(uint32_t h) {
@@ -54,44 +124,30 @@ inline void ConstrainedDelaunay::push(uint32_t h) {
   waits_[h] = true;
 }
 
-/// Makes each block constrained Delaunay by itself; the edges between blocks become fixed.
-bool ConstrainedDelaunay::flipBlocks(Work& work) {
-  halves_.clear();
-  const uint32_t size = count_ <= kFewHalves ? kFewHalves : kBlockHalves;
-  for (uint32_t first = 0; first < count_; first += size) {
-    const uint32_t end = std::min(first + size, count_);
-    for (uint32_t h = first; h < end; ++h) {
-      const uint32_t g = twins_[h];
-      if (g <= h || g >= kFixed) continue;
-      if (g < end) {
-        push(h);
-        continue;
-      }
-      const uint32_t i = uint32_t(halves_.size());
-      halves_.push_back(h), halves_.push_back(g);
-      twins_[h] = kFixed + i + 1, twins_[g] = kFixed + i;
-    }
-    if (!work.tick(50 * (end - first)) || !flipStacked(work)) return false;
-  }
-  return true;
+/// Makes a block constrained Delaunay by itself.
+bool ConstrainedDelaunay::flipBlock(uint32_t first, uint32_t end, Work& work) {
+  for (uint32_t h = first; h < end; ++h)
+    if (twins_[h] > h && twins_[h] < end) push(h);
+  return work.tick(50 * (end - first)) && flipStacked(work);
 }
 
-/// The fixed edges in the order of giving up, as places in halves_.
+/// The closed edges in the order of giving up.
 void ConstrainedDelaunay::orderEdges() {
   uint32_t starts[kLevels + 1] = {};
-  const uint32_t count = uint32_t(halves_.size());
-  const auto level = [&](uint32_t i) { return levelOf(halves_[i] / 3, halves_[i + 1] / 3); };
-  for (uint32_t i = 0; i < count; i += 2) ++starts[level(i) + 1];
+  const uint32_t begin = all_->outside + 2, end = all_->end;
+  const auto level = [&](uint32_t c) { return levelOf(twins_[c] / 3, twins_[c + 1] / 3); };
+  for (uint32_t c = begin; c < end; c += 2) ++starts[level(c) + 1];
   for (int l = 0; l < kLevels; ++l) starts[l + 1] += starts[l];
-  order_.resize(count / 2);
-  for (uint32_t i = 0; i < count; i += 2) order_[starts[level(i)]++] = i;
+  order_.resize((end - begin) / 2);
+  for (uint32_t c = begin; c < end; c += 2) order_[starts[level(c)]++] = c;
 }
 
 bool ConstrainedDelaunay::giveUpEdges(Work& work) {
+  if (all_->end == all_->outside + 2) return true;
   orderEdges();
-  for (const uint32_t i : order_) {
-    const uint32_t h = halves_[i], g = halves_[i + 1];
-    twins_[h] = g, twins_[g] = h;
+  for (const uint32_t c : order_) {
+    const uint32_t h = twins_[c], g = twins_[c + 1];
+    pair(h, g);
     uint32_t changes = 1;
     if (isIllegal(h)) {
       if (isExact_) {
@@ -103,6 +159,7 @@ bool ConstrainedDelaunay::giveUpEdges(Work& work) {
     }
     if (!work.tick(50 * changes)) return false;
   }
+  all_->end = all_->outside + 2;
   return true;
 }
 
@@ -116,21 +173,12 @@ inline __attribute__((always_inline)) bool ConstrainedDelaunay::isIllegal(uint32
   return isExact_ || (turn(at_[a], at_[d], at_[c]) > 0 && turn(at_[b], at_[c], at_[d]) > 0);
 }
 
-void ConstrainedDelaunay::setTwin(uint32_t h, uint32_t g) {
-  twins_[h] = g;
-  if (g < kFixed)
-    twins_[g] = h;
-  else if (g != kNone)
-    halves_[(g - kFixed) ^ 1] = h;
-}
-
 /// Puts the other diagonal into the two triangles at h; it comes after h, and after its twin.
 void ConstrainedDelaunay::flip(uint32_t h) {
   const uint32_t g = twins_[h];
   const uint32_t h1 = nextInTriangle(h), g1 = nextInTriangle(g);
   corners_[h1] = corners_[prevInTriangle(g)], corners_[g1] = corners_[prevInTriangle(h)];
-  setTwin(h, twins_[g1]), setTwin(g, twins_[h1]);
-  twins_[h1] = g1, twins_[g1] = h1;
+  pair(h, twins_[g1]), pair(g, twins_[h1]), pair(h1, g1);
 }
 
 /// Flips the edges of the stack that are illegal, and all that become so.
@@ -140,10 +188,10 @@ bool ConstrainedDelaunay::flipStacked(Work& work) {
   while (waiting_ > 0) {
     const uint32_t h = stack_[--waiting_], g = twins_[h];
     waits_[h] = false;
-    if (g >= kFixed || !isIllegal(h)) continue;
+    if (!isOpen(g) || !isIllegal(h)) continue;
     flip(h);
     for (const uint32_t e : {h, prevInTriangle(h), g, prevInTriangle(g)})
-      if (twins_[e] < kFixed && !waits_[e] && !waits_[twins_[e]]) push(e);
+      if (isOpen(twins_[e]) && !waits_[e] && !waits_[twins_[e]]) push(e);
     if (++flips % kTick == 0 && !work.tick(50 * kTick)) return false;
   }
   return work.tick(50 * (flips % kTick));
@@ -152,8 +200,8 @@ bool ConstrainedDelaunay::flipStacked(Work& work) {
 /// A triangle in the place of one taken away: its first half-edge.
 uint32_t ConstrainedDelaunay::create(uint32_t a, uint32_t b, uint32_t c) {
   SF_ASSERT(turn(at_[a], at_[b], at_[c]) > 0);
-  const uint32_t h = 3 * free_.back();
-  free_.pop_back();
+  const uint32_t h = 3 * free_.last();
+  free_.pop();
   corners_[h] = a, corners_[h + 1] = b, corners_[h + 2] = c;
   return h;
 }
@@ -161,28 +209,28 @@ uint32_t ConstrainedDelaunay::create(uint32_t a, uint32_t b, uint32_t c) {
 /// Takes away the triangles on the left border's first edge, as long as `right` is in their circles.
 void ConstrainedDelaunay::takeLeft(uint32_t left, uint32_t right) {
   for (;;) {
-    Border& border = left_.back();
+    Border& border = left_.last();
     const uint32_t h = border.outer;
-    if (h >= kFixed) return;
+    if (!isOpen(h)) return;
     const uint32_t after = nextInTriangle(h), before = prevInTriangle(h), apex = corners_[before];
     if (!inCircle(metric_[left], metric_[border.vertex], metric_[apex], metric_[right])) return;
-    free_.push_back(h / 3);
+    free_.push(h / 3);
     border.outer = twins_[after];
-    left_.push_back({apex, twins_[before]});
+    left_.push({apex, twins_[before]});
   }
 }
 
 /// The same for the right border.
 void ConstrainedDelaunay::takeRight(uint32_t left, uint32_t right) {
   for (;;) {
-    Border& border = right_.back();
+    Border& border = right_.last();
     const uint32_t h = border.outer;
-    if (h >= kFixed) return;
+    if (!isOpen(h)) return;
     const uint32_t after = nextInTriangle(h), before = prevInTriangle(h), apex = corners_[before];
     if (!inCircle(metric_[border.vertex], metric_[right], metric_[apex], metric_[left])) return;
-    free_.push_back(h / 3);
+    free_.push(h / 3);
     border.outer = twins_[before];
-    right_.push_back({apex, twins_[after]});
+    right_.push({apex, twins_[after]});
   }
 }
 
@@ -193,49 +241,49 @@ uint32_t ConstrainedDelaunay::merge(uint32_t h) {
   const uint32_t h1 = nextInTriangle(h), h2 = prevInTriangle(h);
   const uint32_t g1 = nextInTriangle(g), g2 = prevInTriangle(g);
   left_.clear(), right_.clear(), free_.clear();
-  left_.push_back({top, twins_[h1]}), left_.push_back({corners_[h2], twins_[h2]});
-  right_.push_back({top, twins_[g2]}), right_.push_back({corners_[g2], twins_[g1]});
-  free_.push_back(h / 3), free_.push_back(g / 3);
+  left_.push({top, twins_[h1]}), left_.push({corners_[h2], twins_[h2]});
+  right_.push({top, twins_[g2]}), right_.push({corners_[g2], twins_[g1]});
+  free_.push(h / 3), free_.push(g / 3);
   // The first triangle is the tangent of two convex chains: of the neighbours of the lower end to
   // either side, under inversion at it.
   for (size_t taken = 0; taken != free_.size();) {
     taken = free_.size();
-    takeLeft(bottom, right_.back().vertex);
-    takeRight(left_.back().vertex, bottom);
+    takeLeft(bottom, right_.last().vertex);
+    takeRight(left_.last().vertex, bottom);
   }
-  uint32_t left = left_.back().vertex, right = right_.back().vertex;
+  uint32_t left = left_.last().vertex, right = right_.last().vertex;
   uint32_t t = create(bottom, right, left), base = t + 1;
-  setTwin(t, right_.back().outer), setTwin(t + 2, left_.back().outer);
-  left_.pop_back(), right_.pop_back();
+  pair(t, right_.last().outer), pair(t + 2, left_.last().outer);
+  left_.pop(), right_.pop();
   uint32_t created = 1;
   for (;; ++created) {
-    const bool seesLeft = turn(at_[left], at_[right], at_[left_.back().vertex]) > 0;
-    const bool seesRight = turn(at_[left], at_[right], at_[right_.back().vertex]) > 0;
+    const bool seesLeft = turn(at_[left], at_[right], at_[left_.last().vertex]) > 0;
+    const bool seesRight = turn(at_[left], at_[right], at_[right_.last().vertex]) > 0;
     if (seesLeft) takeLeft(left, right);
     if (seesRight) takeRight(left, right);
-    const Border l = left_.back(), r = right_.back();
+    const Border l = left_.last(), r = right_.last();
     const bool endsLeft = l.vertex == top, endsRight = r.vertex == top;
     const bool goesRight =
         !seesLeft || endsLeft ||
         (seesRight && !endsRight &&
          inCircle(metric_[left], metric_[right], metric_[l.vertex], metric_[r.vertex]));
     t = create(left, right, goesRight ? r.vertex : l.vertex);
-    setTwin(t, base);
+    pair(t, base);
     if (endsLeft && endsRight) {
-      setTwin(t + 1, r.outer), setTwin(t + 2, l.outer);
+      pair(t + 1, r.outer), pair(t + 2, l.outer);
       break;
     }
     if (goesRight) {
-      setTwin(t + 1, r.outer);
+      pair(t + 1, r.outer);
       base = t + 2, right = r.vertex;
-      right_.pop_back();
+      right_.pop();
     } else {
-      setTwin(t + 2, l.outer);
+      pair(t + 2, l.outer);
       base = t + 1, left = l.vertex;
-      left_.pop_back();
+      left_.pop();
     }
   }
-  SF_ASSERT(free_.empty());
+  SF_ASSERT(free_.size() == 0);
   return created + 1;
 }
 

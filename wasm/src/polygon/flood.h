@@ -13,6 +13,7 @@
 #include "base/work.h"
 #include "polygon/polygon.h"
 #include "polygon/sweep.h"
+#include "polygon/triangle_mesh.h"
 #include "polygon/triangulate.h"
 
 namespace sf {
@@ -22,32 +23,39 @@ enum class FloodAction : uint32_t { Start, Raise, Fill, Bridge, Spill, Jump };
 
 class Flood {
  public:
-  /// Appends the triangles of the loops to `triangles`, as nodes, counter-clockwise; all are strictly
-  /// positive.
+  /// Triangulates the loops.
   ///   loops, seen  as PlaneSweep::run leaves them; they are read only
   ///   trace        if not null, gets the actions, with nodes for vertices
-  ///   twins        if not null, is set to what findTwins (triangle_mesh.h) finds of the triangles
-  ///                appended, as if there were no others
+  ///   paired       whether twins are wanted too
   /// False, after a forbidden state, only for loops that no sweep has passed; or once `work` is to
   /// end. O(m) time and memory; the memory is kept, and charged during the call.
   bool run(const LinkedPolygon& loops, const Visibility& seen, Work& work,
-           std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace,
-           std::vector<uint32_t>* twins = nullptr);
+           std::vector<FloodStep>* trace = nullptr, bool paired = false);
+
+  /// [3t] The triangles of the last run, as nodes, counter-clockwise; all are strictly positive. Each was
+  /// made for its first corner, which sees the edge between the others; what lies below that edge, and
+  /// any other neighbour, comes earlier in the list, but for the neighbours of one corner that made them
+  /// all, and across bridges. Theirs to change, whoever ran it.
+  ArrayView<uint32_t> triangles() { return {corners_.data(), size_t(out_ - corners_.data())}; }
+  /// Their twins, if they were wanted, bridges being closed edges.
+  ClosableTwins& twins() { return twins_; }
 
  private:
-  /// A corner of what is not flooded yet. 40 bytes, read together.
+  /// A corner of what is not flooded yet, read together.
   struct Node {
     Point2 at;
-    uint32_t next, prev;
-    uint32_t node;  // of `loops`, which copies share
-    uint32_t sag;  // the lowest sag that waits under the edge that rises from here on the left bank
-    uint32_t jump;  // of a top that one side has reached: the other end of that side's chain; of a
-                    // sag that waits: the next one under the same edge
+    Node *next, *prev;
+    uint32_t node;   // of `loops`, which copies share
+    uint32_t below;  // what lies below the link to the next one: the half-edge of a triangle, or one
+                     // beyond them
+    Node* sag;   // the lowest sag that waits under the edge that rises from here on the left bank
+    Node* jump;  // of a top that one side has reached: the other end of that side's chain; of a
+                 // sag that waits: the next one under the same edge
     VertexKind kind;
   };
   /// The ends of an active chain, and the highest vertex of it.
   struct Chain {
-    uint32_t left, right, highest;
+    Node *left, *right, *highest;
   };
 
   bool begin(const LinkedPolygon& loops, const Visibility& seen, Work& work);
@@ -55,42 +63,39 @@ class Flood {
   bool start();
   enum class Step { On, Done, Forbidden };
   Step step();
-  bool raiseLeft(uint32_t v);
-  bool raiseRight(uint32_t v);
-  void wedgeAhead(uint32_t v, uint32_t c, uint32_t end);
-  void wedgeBehind(uint32_t v, uint32_t c, uint32_t end);
-  void fill(uint32_t ceiling);
-  bool bridge(uint32_t sag);
-  void bridgeIsland(uint32_t sag);
-  void spill(uint32_t top, bool left);
-  uint32_t copyOf(uint32_t v);
-  uint32_t newBridge();
-  void link(uint32_t from, uint32_t to) { nodes_[from].next = to, nodes_[to].prev = from; }
-  void emit(const Node& a, const Node& b, const Node& c) {
-    out_[0] = a.node, out_[1] = b.node, out_[2] = c.node;
+  bool raiseLeft(Node* v);
+  bool raiseRight(Node* v);
+  void wedgeAhead(Node* v, Node* c, Node* end);
+  void wedgeBehind(Node* v, Node* c, Node* end);
+  void fill(Node* ceiling);
+  bool bridge(Node* sag);
+  void bridgeIsland(Node* sag);
+  void spill(Node* top, bool left);
+  Node* copyOf(const Node& v);
+  static void link(Node* from, Node* to) { from->next = to, to->prev = from; }
+  void emit(const Node* a, const Node* b, const Node* c) {
+    out_[0] = a->node, out_[1] = b->node, out_[2] = c->node;
     out_ += 3;
   }
-  void pair(uint32_t h, uint32_t below);
   /// The first half-edge of the next triangle.
-  uint32_t nextHalf() const { return uint32_t(out_ - outBegin_); }
-  void note(FloodAction action);
+  uint32_t nextHalf() const { return uint32_t(out_ - corners_.data()); }
+  void note(FloodAction action) {
+    if (trace_) append(action);
+  }
+  void append(FloodAction action);
 
   std::vector<Node> nodes_;
-  std::vector<uint32_t> bottoms_;
+  std::vector<Node*> bottoms_;
   std::vector<Chain> pending_;
-  size_t used_ = 0, nextBottom_ = 0, spilled_ = 0;
-  uint32_t spilledTo_ = kNone;
+  Node* unused_ = nullptr;
+  size_t nextBottom_ = 0, spilled_ = 0;
+  Node* spilledTo_ = nullptr;
   Chain chain_{};
-  uint32_t *out_ = nullptr, *outBegin_ = nullptr;
+  std::vector<uint32_t> corners_;  // only grows
+  uint32_t* out_ = nullptr;
   std::vector<FloodStep>* trace_ = nullptr;
-
-  // For twins, if they are wanted.
-  uint32_t* twins_ = nullptr;
-  // For each node what lies below the link to the next one: the half-edge of a triangle, kNone at the
-  // loops, or kBridge + i for a bridge, of which bridges_[i] is the half-edge on the side that was
-  // flooded first.
-  static constexpr uint32_t kBridge = 1u << 31;
-  std::vector<uint32_t> below_, bridges_;
+  ClosableTwins twins_;
+  bool paired_ = false;
 };
 
 }  // namespace sf

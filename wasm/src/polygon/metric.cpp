@@ -9,11 +9,12 @@ namespace sf {
 ArrayView<const Point2> metricPoints(ArrayView<const Point2> at, std::vector<Point2>& scaled,
                                      bool& isExact) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Double2 greatest = {0, 0}, least2 = {kInfinity, kInfinity};
+  const Double2 infinite = {kInfinity, kInfinity};
+  Double2 greatest = {0, 0}, least2 = infinite;
   for (const Point2 p : at) {
     const Double2 xy = {p.x, p.y}, m = magnitudes(xy);
     greatest = greater(m, greatest);
-    least2 = ((m < least2) & (m > 0)) ? m : least2;
+    least2 = lesser(m > 0 ? m : infinite, least2);
   }
   const double largest = greatest[0] > greatest[1] ? greatest[0] : greatest[1];
   const double least = least2[0] < least2[1] ? least2[0] : least2[1];

@@ -128,17 +128,16 @@ bool PolygonSession::flood(ArrayView<const uint32_t> ringNext, Work& work) {
   ConstrainedDelaunay delaunay;
   LinkedPolygon inside, outside;
   Visibility seen, seenOutside;
-  std::vector<uint32_t> around, twins;
   if (!sweep.run({xy[0], starts, xy[1]}, true, false, work, inside, seen).ok()) return false;
-  if (!sweep.isPlain() || !flood.run(inside, seen, work, corners, nullptr, &twins)) return false;
-  if (!delaunay.run(inside, work, corners, twins)) return false;
-  for (uint32_t& v : corners) v = numbers[v];
+  if (!sweep.isPlain() || !flood.run(inside, seen, work, nullptr, true)) return false;
+  if (!delaunay.runFlooded(inside, work, flood)) return false;
+  for (const uint32_t v : flood.triangles()) corners.push_back(numbers[v]);
   takeComplement(inside, seen, outside, seenOutside);
   widenFrame(outside);
-  if (!flood.run(outside, seenOutside, work, around, nullptr, &twins)) return false;
-  if (!delaunay.run(outside, work, around, twins)) return false;
+  if (!flood.run(outside, seenOutside, work, nullptr, true)) return false;
+  if (!delaunay.runFlooded(outside, work, flood)) return false;
   const uint32_t count = uint32_t(numbers.size());
-  for (const uint32_t v : around) corners.push_back(v < count ? numbers[v] : v - count);
+  for (const uint32_t v : flood.triangles()) corners.push_back(v < count ? numbers[v] : v - count);
   return mesh_.adopt(corners, ringNext, work);
 }
 

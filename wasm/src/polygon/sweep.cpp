@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/charge.h"
+#include "base/double2.h"
 #include "polygon/link_rings.h"
 #include "polygon/sweep_state.h"
 
@@ -13,9 +14,13 @@ using State = SweepState;
 
 namespace {
 
-constexpr size_t kFewToSort = 64, kFewInBucket = 8, kMostLayers = 1024;
+constexpr size_t kFewToRank = 128;
+constexpr size_t kFewInBucket = 8, kMostLayers = 1024;
 // Events whose data are touched at once; from how many nodes on they do not fit the nearer caches.
 constexpr size_t kAhead = 64, kFarApart = 32768;
+bool comesBefore(const State::Event& a, const State::Event& b) {
+  return below(a.at, b.at) || (a.at == b.at && a.node < b.node);
+}
 // How far along a loop to look for an edge near a new one.
 constexpr int kRingSteps = 24;
 
@@ -109,30 +114,12 @@ bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility&
   outcome = misplaced = {};
   const size_t m = linked.at.size();
   inputNodes = m;
-  events.resize(m);
   // Edges come into the order in pairs, at local minima alone.
   const uint32_t chainCount = numberChains();
-  const bool hints = EdgeOrder::takesHints(chainCount);
-  size_t count = 0;
-  Point2 least{HUGE_VAL, HUGE_VAL}, greatest{-HUGE_VAL, -HUGE_VAL};
-  for (uint32_t v = 0; v < m; ++v) {
-    const VertexKind kind = linked.kind[v];
-    const Point2 at = linked.at[v];
-    const bool isMinimum = kind == VertexKind::Bottom;
-    const uint32_t near = isMinimum && hints              ? edgeNear(v)
-                          : kind == VertexKind::LeftBank  ? linked.prev[v]
-                          : kind == VertexKind::RightBank ? linked.next[v]
-                                                          : kNone;
-    events[count] = {at, v, chains[v], near, kind};
-    count += kind != VertexKind::Unused;
-    least.x = std::min(least.x, at.x), greatest.x = std::max(greatest.x, at.x);
-    least.y = std::min(least.y, at.y), greatest.y = std::max(greatest.y, at.y);
-  }
+  const size_t count = makeEvents(EdgeOrder::takesHints(chainCount));
   isPlain = count == m;
-  events.resize(count);
-  sortEvents(least.y, greatest.y);
   if (!work.tick(uint32_t(std::min<size_t>(m, 1u << 24)) * 60)) return false;
-  edges.reset(chainCount, least.x, greatest.x);
+  edges.reset(chainCount, least, greatest);
   seen->order.clear();
   seen->left.resize(m);
   if (!sagsOnly) {
@@ -145,22 +132,37 @@ bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility&
 
 /// Numbers the records of chains; returns how many there are.
 uint32_t State::numberChains() {
+  const ArrayView<const uint32_t> starts = view->starts;
+  const uint32_t rings = uint32_t(starts.size()) - 1, n = starts[rings];
   const uint32_t m = uint32_t(loops->at.size());
-  const uint32_t *next = loops->next.data(), *prev = loops->prev.data();
-  const VertexKind* kind = loops->kind.data();
   chains.resize(m);
-  uint32_t e = 0;
-  for (uint32_t v = 0; v < m; ++v) {
-    if (kind[v] != VertexKind::Bottom) continue;
-    uint32_t u = prev[v];
-    for (; kind[u] == VertexKind::LeftBank; u = prev[u]) chains[u] = e;
-    ++e;
-    u = v;
-    do chains[u] = e, u = next[u];
-    while (kind[u] == VertexKind::RightBank);
-    chains[u] = e++;
+  uint32_t count = 0;
+  for (uint32_t r = 0; r < rings; ++r) count = numberRing(starts[r], starts[r + 1], reversed[r], count);
+  if (m > n && loops->kind[n] != VertexKind::Island) count = numberRing(n, m, false, count);
+  return count;
+}
+
+/// The same for the nodes from `first` to `end`, with records from `record` on: along the loop, a chain
+/// that leads down, the minimum, the one that leads up from it, the maximum.
+uint32_t State::numberRing(uint32_t first, uint32_t end, bool backwards, uint32_t record) {
+  const VertexKind* kind = loops->kind.data();
+  const uint32_t size = end - first, begin = backwards ? end - 1 : first, step = backwards ? kNone : 1;
+  // Where the ring begins on a way up, its minimum comes last.
+  uint32_t v = begin;
+  while (kind[v] == VertexKind::Unused) v += step;
+  const bool startsUp = kind[v] == VertexKind::RightBank || kind[v] == VertexKind::Ceiling;
+  uint32_t e = record + uint32_t(startsUp);
+  for (uint32_t i = 0, u = begin; i < size; ++i, u += step) {
+    e += uint32_t(kind[u] == VertexKind::Bottom);
+    chains[u] = e;
+    e += uint32_t(kind[u] == VertexKind::Ceiling);
   }
-  return e;
+  // The chain at the end is that of the beginning.
+  const uint32_t next = e & ~1u;
+  const uint32_t around = next - record;
+  for (uint32_t i = size, u = begin + step * (size - 1); i > 0 && chains[u] >= next; --i, u -= step)
+    chains[u] -= around;
+  return next;
 }
 
 /// The record of an edge at the height of a local minimum not far from it along its loop, if there is
@@ -177,22 +179,78 @@ uint32_t State::edgeNear(uint32_t v) const {
   return kNone;
 }
 
+State::Event State::eventOf(uint32_t v, bool hints) const {
+  const VertexKind kind = loops->kind[v];
+  uint32_t near = kind == VertexKind::RightBank ? loops->next[v] : loops->prev[v];
+  if (hints && kind == VertexKind::Bottom) near = edgeNear(v);
+  if (kind == VertexKind::Island) near = kNone;
+  return {loops->at[v], v, chains[v], near, kind};
+}
+
+/// Makes the events, sorted by height; returns how many there are.
+size_t State::makeEvents(bool hints) {
+  const size_t m = loops->at.size();
+  Double2 low = {HUGE_VAL, HUGE_VAL}, high = -low;
+  size_t count = 0;
+  for (size_t v = 0; v < m; ++v) {
+    const Double2 at = {loops->at[v].x, loops->at[v].y};
+    low = lesser(at, low), high = greater(at, high);
+    count += loops->kind[v] != VertexKind::Unused;
+  }
+  least = {low[0], low[1]}, greatest = {high[0], high[1]};
+  const double toKey = double(1 << 23) / (greatest.y - least.y);
+  if (m <= kFewToRank && toKey < 1e300) {
+    rankEvents(hints, toKey);
+    events.resize(count);
+    sortNearby();
+    return count;
+  }
+  events.resize(count);
+  for (uint32_t v = 0, i = 0; v < m; ++v)
+    if (loops->kind[v] != VertexKind::Unused) events[i++] = eventOf(v, hints);
+  sortEvents();
+  return count;
+}
+
+/// Makes few events in the order of keys, the heights in 2^23 steps: each goes where as many are below it,
+/// which takes no branches.
+void State::rankEvents(bool hints, double toKey) {
+  using Int4 = int32_t __attribute__((vector_size(16)));
+  const size_t count = loops->at.size();
+  alignas(16) int32_t keys[kFewToRank + 8];
+  for (size_t v = 0; v < count; ++v) {
+    const int32_t key = int32_t((loops->at[v].y - least.y) * toKey) << 7 | int32_t(v);
+    keys[v] = loops->kind[v] == VertexKind::Unused ? INT32_MAX : key;
+  }
+  events.resize(count);
+  for (size_t i = 0; i < count; i += 8) {
+    Int4 a, b;
+    __builtin_memcpy(&a, keys + i, 16), __builtin_memcpy(&b, keys + i + 4, 16);
+    Int4 rankA = {0, 0, 0, 0}, rankB = {0, 0, 0, 0};
+    for (size_t j = 0; j < count; ++j) {
+      const Int4 key = {keys[j], keys[j], keys[j], keys[j]};
+      rankA -= key < a, rankB -= key < b;
+    }
+    int32_t ranks[8];
+    __builtin_memcpy(ranks, &rankA, 16), __builtin_memcpy(ranks + 4, &rankB, 16);
+    for (size_t k = 0; k < 8 && i + k < count; ++k)
+      events[size_t(ranks[k])] = eventOf(uint32_t(i + k), hints);
+  }
+}
+
 /// Sorts the events by height: into as many buckets, which layers share in as they do in events, then
 /// each bucket.
-void State::sortEvents(double least, double greatest) {
-  const auto isBelow = [](const Event& a, const Event& b) {
-    return below(a.at, b.at) || (a.at == b.at && a.node < b.node);
-  };
+void State::sortEvents() {
   const size_t count = events.size(), layerCount = std::min(count / kFewInBucket, kMostLayers);
-  const double scale = double(layerCount) / (greatest - least);
-  if (count < kFewToSort || !(scale < 1e300)) {
-    std::sort(events.begin(), events.end(), isBelow);
+  const double scale = double(layerCount) / (greatest.y - least.y);
+  if (!(scale < 1e300)) {
+    std::sort(events.begin(), events.end(), comesBefore);
     return;
   }
   layers.assign(layerCount + 1, {0, 0});
   places.resize(count);
   for (size_t i = 0; i < count; ++i) {
-    places[i] = uint32_t((events[i].at.y - least) * scale);
+    places[i] = uint32_t((events[i].at.y - least.y) * scale);
     layers[places[i]].count += 1;
   }
   double sum = 0;
@@ -200,7 +258,7 @@ void State::sortEvents(double least, double greatest) {
   buckets.assign(count + 2, 0);
   for (size_t i = 0; i < count; ++i) {
     const Layer& layer = layers[places[i]];
-    const double height = (events[i].at.y - least) * scale - places[i];
+    const double height = (events[i].at.y - least.y) * scale - places[i];
     places[i] = uint32_t(layer.below + height * layer.count);
     ++buckets[places[i] + 1];
   }
@@ -212,13 +270,18 @@ void State::sortEvents(double least, double greatest) {
   // insertion, since nothing moves out of its own.
   for (size_t b = 0, begin = 0; b + 1 < buckets.size(); begin = buckets[b++])
     if (buckets[b] - begin > kFewInBucket)
-      std::sort(events.begin() + ptrdiff_t(begin), events.begin() + ptrdiff_t(buckets[b]), isBelow);
-  for (size_t i = 1; i < count; ++i) {
-    if (!isBelow(events[i], events[i - 1])) continue;
+      std::sort(events.begin() + ptrdiff_t(begin), events.begin() + ptrdiff_t(buckets[b]), comesBefore);
+  sortNearby();
+}
+
+/// Sorts events none of which is far from its place.
+void State::sortNearby() {
+  for (size_t i = 1; i < events.size(); ++i) {
+    if (!comesBefore(events[i], events[i - 1])) continue;
     const Event event = events[i];
     size_t place = i;
     do events[place] = events[place - 1];
-    while (--place > 0 && isBelow(event, events[place - 1]));
+    while (--place > 0 && comesBefore(event, events[place - 1]));
     events[place] = event;
   }
 }
@@ -272,9 +335,8 @@ size_t State::step(size_t i) {
   const auto pass = [&] {
     switch (event.kind) {
       case VertexKind::LeftBank:
-        return passMonotone(event, true);
       case VertexKind::RightBank:
-        return passMonotone(event, false);
+        return passMonotone(event, event.kind == VertexKind::LeftBank);
       case VertexKind::Bottom:
         return passMinimum(event);
       case VertexKind::Ceiling:
@@ -307,8 +369,10 @@ void State::see(uint32_t v, uint32_t left, uint32_t right) {
 bool State::passMonotone(const Event& event, bool down) {
   const uint32_t v = event.node, e = event.edge;
   const uint32_t left = edges[e].left, right = edges[e].right;
-  if (left != kNone && !(side(left, event.at) < 0)) return false;
-  if (right != kNone && !(side(right, event.at) > 0)) return false;
+  const uint32_t wall = edges.walls();
+  const double fromLeft = side(left == kNone ? wall : left, event.at);
+  const double fromRight = side(right == kNone ? wall + 1 : right, event.at);
+  if (!((fromLeft < 0) & (fromRight > 0))) return false;
   if (!sagsOnly) see(v, down ? kNone : left, down ? right : kNone);
   // Links to what is above the sweep line are as they were.
   const uint32_t upper = event.near;

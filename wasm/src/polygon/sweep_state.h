@@ -53,6 +53,7 @@ struct SweepState {
   LinkedPolygon* loops = nullptr;
   Visibility* seen = nullptr;
   bool sagsOnly = false;
+  Point2 least{}, greatest{};
   size_t inputNodes = 0;  // those that are vertices of the input
   bool isPlain = true;    // no two vertices at one place so far, and none on an edge
   Outcome outcome;        // the first crossing
@@ -62,7 +63,12 @@ struct SweepState {
   bool begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility& visibility, Work& work);
   uint32_t numberChains();
   uint32_t edgeNear(uint32_t v) const;
-  void sortEvents(double least, double greatest);
+  uint32_t numberRing(uint32_t first, uint32_t end, bool backwards, uint32_t record);
+  Event eventOf(uint32_t v, bool hints) const;
+  size_t makeEvents(bool hints);
+  void rankEvents(bool hints, double toKey);
+  void sortEvents();
+  void sortNearby();
   void sweep(Work& work);
   void touchAhead(size_t i, size_t end);
   /// Handles event i, with those after it that are at the same point; returns how many, 0 after a

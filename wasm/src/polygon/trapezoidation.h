@@ -85,6 +85,7 @@ class TrapezoidTriangulator {
   UTree tree_;
   TriangleMesh mesh_;
   ConstrainedDelaunay delaunay_;
+  ClosableTwins twins_;  // while it works
   StripFlips stripFlips_;
   std::vector<uint32_t> edges_;
   std::vector<uint32_t> islands_;

@@ -1,5 +1,7 @@
 #include "polygon/triangle_mesh.h"
 
+#include <algorithm>
+
 #include "base/charge.h"
 #include "base/predicates.h"
 #include "polygon/turn.h"
@@ -57,6 +59,24 @@ bool TriangleMesh::isIllegal(uint32_t h) const {
   if (incircle(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y) <= 0) return false;
   // Implied where `metric` is `at`; elsewhere what it says of angles may be all wrong.
   return orient(v[0], v[3], v[2]) > 0 && orient(v[1], v[2], v[3]) > 0;
+}
+
+void ClosableTwins::close(uint32_t h) {
+  if (of.size() < end + size_t(2)) of.resize(2 * of.size() + 2);
+  const uint32_t g = of[h], c = addClosed();
+  pair(h, c), pair(g, c + 1);
+}
+
+void ClosableTwins::fromPlain() {
+  const uint32_t halves = uint32_t(of.size());
+  reset(halves, 0);
+  for (uint32_t h = 0; h < halves; ++h) of[h] = std::min(of[h], outside);
+}
+
+void ClosableTwins::toPlain(uint32_t halves) {
+  for (uint32_t c = outside + 2; c < end; c += 2) pair(of[c], of[c + 1]);
+  of.resize(halves);
+  for (uint32_t& g : of) g = g == outside ? kNone : g;
 }
 
 uint32_t TriangleMesh::create(uint32_t a, uint32_t b, uint32_t c) {

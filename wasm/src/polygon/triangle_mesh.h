@@ -27,6 +27,30 @@ inline uint32_t prevInTriangle(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; 
 bool findTwins(ArrayView<const uint32_t> corners, uint32_t vertexCount, Work& work,
                std::vector<uint32_t>& twins);
 
+/// Twins while edges between triangles may be closed for a time. All that lies beyond the triangles has
+/// half-edges of its own, so that pairing takes no questions: `outside` stands for the far sides of all
+/// edges of the loops; after it come those of closed edges, two by two. A closed edge of half-edges h and
+/// g with far sides c and c ^ 1 has of[h] = c, of[c] = h, of[g] = c ^ 1, of[c ^ 1] = g.
+struct ClosableTwins {
+  std::vector<uint32_t> of;  // [at least end]; of[outside] means nothing
+  uint32_t outside = 0;      // even, not below the number of half-edges
+  uint32_t end = 0;          // past the far sides of closed edges; both from outside + 2 on
+
+  /// No twins and no closed edges, with room for so many of each; what `of` holds is left as it is.
+  void reset(uint32_t halves, uint32_t closed) {
+    outside = (halves + 1) & ~1u, end = outside + 2;
+    if (of.size() < end + 2 * size_t(closed)) of.resize(end + 2 * size_t(closed));
+  }
+  void pair(uint32_t h, uint32_t g) { of[h] = g, of[g] = h; }
+  /// Closes the edge of h, which has a twin. Makes room for it.
+  void close(uint32_t h);
+  /// The far sides of one more closed edge, for which there is room: the first, even one.
+  uint32_t addClosed() { return end += 2, end - 2; }
+  /// From findTwins' form, and to it: `of` has `halves` elements then, all edges being open.
+  void fromPlain();
+  void toPlain(uint32_t halves);
+};
+
 /// Triangles of positive area.
 struct TriangleMesh {
   ArrayView<const Point2> at;      // [n] positions

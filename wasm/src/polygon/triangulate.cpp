@@ -40,50 +40,49 @@ struct PolygonTriangulator::State {
   Visibility seen, outside;
   Certificate certificate;
   std::vector<uint32_t> starts;
-  std::vector<uint32_t> twins;  // set by triangulateLoops, if asked for
+  std::vector<uint32_t> corners;  // by trapezoids
+  ClosableTwins twins;            // of these
+  // The triangles of the current polygon, but for flat ones, and their twins where these are known.
+  ArrayView<uint32_t> found;
+  ClosableTwins* foundTwins = nullptr;
 
-  Outcome append(const PolygonView& polygon, const PolygonOptions& options, Work& work,
-                 std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace);
-  bool triangulateLoops(const PolygonOptions& options, Work& work, std::vector<uint32_t>& triangles,
-                        std::vector<FloodStep>* trace);
+  Outcome append(const PolygonView& polygon, const PolygonOptions& options, uint32_t first,
+                 Work& work, std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace);
+  bool triangulateLoops(const PolygonOptions& options, Work& work, std::vector<FloodStep>* trace);
   Outcome appendRepaired(const PolygonView& polygon, const PolygonOptions& options, Work& work,
                          PolygonTriangulation& result);
-  bool isCertain(const PolygonView& polygon, bool sagsOnly, ArrayView<const uint32_t> triangles,
-                 Work& work);
+  bool isCertain(const PolygonView& polygon, bool sagsOnly, Work& work);
 };
 
 PolygonTriangulator::PolygonTriangulator() : state_(new State) {}
 PolygonTriangulator::~PolygonTriangulator() = default;
 
-/// Appends the triangles of the linked loops, as nodes.
+/// Finds the triangles of the linked loops, as nodes.
 bool PolygonTriangulator::State::triangulateLoops(const PolygonOptions& options, Work& work,
-                                                  std::vector<uint32_t>& triangles,
                                                   std::vector<FloodStep>* trace) {
-  const size_t before = triangles.size();
-  const auto added = [&] {
-    return ArrayView<uint32_t>(triangles.data() + before, triangles.size() - before);
-  };
   if (options.method == PolygonMethod::Flooding) {
-    const bool paired = options.delaunay || options.verify;
-    if (!flood.run(loops, seen, work, triangles, trace, paired ? &twins : nullptr)) return false;
-  } else {
-    const bool forStrips = options.strips && !options.delaunay;
-    if (!trapezoids.triangulate(loops, seen, true, forStrips, work, triangles)) return false;
-    twins.clear();
-    if (options.delaunay && !findTwins(added(), uint32_t(loops.at.size()), work, twins))
-      return false;
+    if (!flood.run(loops, seen, work, trace, options.delaunay || options.verify)) return false;
+    found = flood.triangles(), foundTwins = &flood.twins();
+    return !options.delaunay || delaunay.runFlooded(loops, work, flood);
   }
-  return !options.delaunay || delaunay.run(loops, work, added(), twins);
+  const bool forStrips = options.strips && !options.delaunay;
+  corners.clear();
+  if (!trapezoids.triangulate(loops, seen, true, forStrips, work, corners)) return false;
+  found = corners, foundTwins = nullptr;
+  if (!options.delaunay) return true;
+  if (!findTwins(corners, uint32_t(loops.at.size()), work, twins.of)) return false;
+  twins.fromPlain();
+  foundTwins = &twins;
+  return delaunay.run(loops, work, found, twins);
 }
 
-/// Appends the triangles of one polygon, as its vertices.
+/// Appends the triangles of one polygon, as its vertices, numbered from `first` on.
 Outcome PolygonTriangulator::State::append(const PolygonView& polygon,
-                                           const PolygonOptions& options, Work& work,
-                                           std::vector<uint32_t>& triangles,
+                                           const PolygonOptions& options, uint32_t first,
+                                           Work& work, std::vector<uint32_t>& triangles,
                                            std::vector<FloodStep>* trace) {
   Charge charge(work);
-  const size_t n = (polygon.positions.size() + polygon.points.size()) / 2,
-               before = triangles.size();
+  const size_t n = (polygon.positions.size() + polygon.points.size()) / 2;
   Outcome outcome;
   if (!charge.add(n * (sizeof(Point2) + 10 * sizeof(uint32_t)))) {
     outcome.status = work.status();
@@ -93,41 +92,50 @@ Outcome PolygonTriangulator::State::append(const PolygonView& polygon,
   // Trapezoids lie along x, and a trace tells of heights along y.
   outcome = sweep.run(polygon, sagsOnly, sagsOnly && !trace, work, loops, seen);
   if (!outcome.ok()) return outcome;
-  bool done = triangulateLoops(options, work, triangles, trace);
+  bool done = triangulateLoops(options, work, trace);
   if (done && loops.at.size() > n) {
-    for (size_t i = before; i < triangles.size(); ++i) triangles[i] = loops.vertex[triangles[i]];
+    for (uint32_t& v : found) v = loops.vertex[v];
     if (trace)
       for (FloodStep& step : *trace)
         step.left = loops.vertex[step.left], step.right = loops.vertex[step.right];
   }
-  if (done) triangles.insert(triangles.end(), loops.flat.begin(), loops.flat.end());
-  if (done && options.verify)
-    done =
-        isCertain(polygon, sagsOnly, {triangles.data() + before, triangles.size() - before}, work);
+  if (done && options.verify) done = isCertain(polygon, sagsOnly, work);
   if (!done) {
     SF_ASSERT(!work.going());
-    triangles.resize(before);
     outcome.status = work.going() ? Status::SelfIntersecting : work.status();
+    return outcome;
   }
+  if (first > 0) {
+    for (uint32_t& v : found) v += first;
+    for (uint32_t& v : loops.flat) v += first;
+  }
+  triangles.insert(triangles.end(), found.begin(), found.end());
+  triangles.insert(triangles.end(), loops.flat.begin(), loops.flat.end());
   return outcome;
 }
 
 /// Whether the triangles and those of the complement prove each other right.
-bool PolygonTriangulator::State::isCertain(const PolygonView& polygon, bool sagsOnly,
-                                           ArrayView<const uint32_t> triangles, Work& work) {
+bool PolygonTriangulator::State::isCertain(const PolygonView& polygon, bool sagsOnly, Work& work) {
   Charge charge(work);
   const uint32_t n = uint32_t(polygon.positions.size() / 2);
   const uint32_t p = uint32_t(polygon.points.size() / 2);
   if (!charge.add((uint64_t(n) + p) * 120)) return false;
   Certificate& c = certificate;
-  c.rings.clear(), c.complement.clear();
+  c.rings.clear();
   c.at.resize(size_t(n) + p + 4);
   Point2* at = c.at.data();
   for (const ArrayView<const double> xy : {polygon.positions, polygon.points})
     for (size_t i = 0; i < xy.size(); i += 2) *at++ = {xy[i], xy[i + 1]};
   frameAround(polygon, c.at.data() + n + p);
-  c.inside.assign(triangles.begin(), triangles.end());
-  c.insideTwins.swap(twins);
+  c.inside.assign(found.begin(), found.end());
+  c.inside.insert(c.inside.end(), loops.flat.begin(), loops.flat.end());
+  found = {c.inside.data(), found.size()};  // flooding is about to begin anew
+  const auto takeTwins = [](ClosableTwins& twins, size_t halves, std::vector<uint32_t>& plain) {
+    twins.toPlain(uint32_t(halves));
+    plain.swap(twins.of);
+  };
+  c.insideTwins.clear();
+  if (foundTwins) takeTwins(*foundTwins, found.size(), c.insideTwins);
   const bool plain = sweep.isPlain();
   if (plain) {
     c.same.resize(size_t(n) + p);
@@ -147,8 +155,9 @@ bool PolygonTriangulator::State::isCertain(const PolygonView& polygon, bool sags
   } else if (!sweep.runComplement(polygon, work, outerLoops, outside).ok()) {
     return false;
   }
-  if (!flood.run(outerLoops, outside, work, c.complement, nullptr, &c.complementTwins))
-    return false;
+  if (!flood.run(outerLoops, outside, work, nullptr, true)) return false;
+  c.complement.assign(flood.triangles().begin(), flood.triangles().end());
+  takeTwins(flood.twins(), c.complement.size(), c.complementTwins);
   if (!plain || !sagsOnly) {
     c.complement.insert(c.complement.end(), outerLoops.flat.begin(), outerLoops.flat.end());
     // There, the frame's corners follow the vertices.
@@ -180,7 +189,7 @@ Outcome PolygonTriangulator::State::appendRepaired(const PolygonView& polygon,
       positions.insert(positions.end(), xy, xy + 2);
     }
     const size_t before = result.triangles.size();
-    outcome = append({positions, starts, {}}, options, work, result.triangles, nullptr);
+    outcome = append({positions, starts, {}}, options, 0, work, result.triangles, nullptr);
     if (!outcome.ok()) return outcome;
     for (size_t i = before; i < result.triangles.size(); ++i)
       result.triangles[i] = repaired.vertices[first + result.triangles[i]];
@@ -192,7 +201,7 @@ Outcome PolygonTriangulator::State::appendRepaired(const PolygonView& polygon,
 Outcome PolygonTriangulator::triangulate(const PolygonView& polygon, const PolygonOptions& options,
                                          Work& work, PolygonTriangulation& result) {
   result = {};
-  Outcome outcome = state_->append(polygon, options, work, result.triangles,
+  Outcome outcome = state_->append(polygon, options, 0, work, result.triangles,
                                    options.trace ? &result.trace : nullptr);
   if (isFault(outcome.status) && options.repair != Repair::None)
     outcome = state_->appendRepaired(polygon, options, work, result);
@@ -236,14 +245,12 @@ Outcome PolygonTriangulator::triangulateBatch(const PolygonBatch& batch,
     const uint32_t first = rings[polygons[p]], end = rings[polygons[p + 1]];
     starts.clear();
     for (uint32_t r = polygons[p]; r <= polygons[p + 1]; ++r) starts.push_back(rings[r] - first);
-    const size_t before = result.triangles.size();
     const PolygonView view{
         batch.positions.slice(2 * size_t(first), 2 * size_t(end - first)), starts, {}};
-    if (starts.size() > 1) outcome = state_->append(view, each, work, result.triangles, nullptr);
+    if (starts.size() > 1) outcome = state_->append(view, each, first, work, result.triangles, nullptr);
     if (!work.going()) return outcome;
     if (!outcome.ok()) result.faults.push_back({p, outcome});
     outcome = {};
-    for (size_t i = before; i < result.triangles.size(); ++i) result.triangles[i] += first;
     result.triangleStarts.push_back(uint32_t(result.triangles.size() / 3));
   }
   return outcome;
