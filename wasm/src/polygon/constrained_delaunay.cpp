@@ -14,9 +14,11 @@ namespace {
 
 // So many triangles next to each other in the list, to the power of two, are a block; so few are one.
 // Within a block flips are fewer than what merges have to prepare, also on smooth curves; measured.
-constexpr int kBlockBits = 5;
+constexpr int kBlockBits = 4;
 constexpr uint32_t kBlockHalves = 3u << kBlockBits, kFewHalves = 2 * kBlockHalves;
 constexpr int kLevels = 32;
+constexpr uint32_t kMostHalves = 3 * 256, kA = 24;
+constexpr double kB = 2 / 3.0;
 
 /// How far apart the blocks of two triangles are: the first binary digit in which they differ.
 int levelOf(uint32_t t, uint32_t s) {
@@ -37,7 +39,7 @@ bool ConstrainedDelaunay::begin(const LinkedPolygon& loops, ArrayView<uint32_t> 
   corners_ = triangles.data(), twins_ = twins.of.data();
   all_ = &twins;
   // Flips stay within a block, unless they take the place of merges.
-  const size_t room = isExact_ ? kFewHalves : count_, row = count_ / 3 + 2;
+  const size_t room = isExact_ ? kMostHalves : count_, row = count_ / 3 + 2;
   if (stack_.size() < room) stack_.resize(room);
   if (free_.items.size() < row)
     left_.items.resize(row), right_.items.resize(row), free_.items.resize(row);
@@ -62,11 +64,23 @@ bool ConstrainedDelaunay::runFlooded(const LinkedPolygon& loops, Work& work, Flo
   Charge charge(work);
   if (!begin(loops, triangles, flood.twins(), charge)) return false;
   if (!isExact_) return run(loops, work, triangles, flood.twins());
-  return improveBlocks(work, [&](uint32_t first, uint32_t end) {
-    uint32_t flips = 0;
-    for (uint32_t t = first; t < end; t += 3) flips += insert(t);
-    return work.tick(20 * (end - first) + 50 * flips);
-  });
+  return insertBlocks(work) && giveUpEdges(work);
+}
+
+bool ConstrainedDelaunay::insertBlocks(Work& work) {
+  uint32_t first = 0;
+  while (first < count_) {
+    const uint32_t most = std::min(first + kMostHalves, count_);
+    uint32_t t = first, flips = 0;
+    for (; t < most && flips <= kA + kB * (t - first); t += 3) {
+      for (uint32_t h = t; h < t + 3 && first > 0; ++h)
+        if (twins_[h] < first) all_->close(h), twins_ = all_->of.data();
+      flips += insert(t);
+    }
+    if (!work.tick(20 * (t - first) + 50 * flips)) return false;
+    first = t;
+  }
+  return true;
 }
 
 /// Makes each block constrained Delaunay by itself, by `improve`, and then the whole.
@@ -82,39 +96,42 @@ bool ConstrainedDelaunay::improveBlocks(Work& work, Improve improve) {
   return giveUpEdges(work);
 }
 
-/// Whether the apex across the edge below the first corner of triangle t, of half-edges t to t + 2, lies
-/// inside its circle; false where nothing before half-edge `end` is across. Without a branch that could
-/// not be foretold, so that two of these are computed at once.
-inline __attribute__((always_inline)) bool ConstrainedDelaunay::isIllegalBelow(uint32_t t,
-                                                                              uint32_t end) const {
-  const uint32_t g = twins_[t + 1];
+/// Whether the apex of the triangle of half-edge g, which runs from b to a, lies inside the circle through
+/// a, b, c; false if there is none before half-edge `end`. Without a branch that could not be foretold, so
+/// that two of these are computed at once.
+inline __attribute__((always_inline)) uint32_t ConstrainedDelaunay::isIllegal(
+    Point2 a, Point2 b, Point2 c, uint32_t g, uint32_t end) const {
   const bool open = g < end;
-  const Point2 a = metric_[corners_[t + 1]], b = metric_[corners_[t + 2]], c = metric_[corners_[t]];
-  const Point2 d = metric_[corners_[prevInTriangle(open ? g : t + 1)]];
+  const Point2 d = metric_[corners_[prevInTriangle(open ? g : 0)]];
   const CircleSide side = sideOfCircle(a, b, c, d);
   bool inside = side.sine < 0;
   if (open & !side.isCertain) inside = incircle(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y) > 0;
-  return inside & open;
+  return uint32_t(inside) & uint32_t(open);
 }
 
-/// Inserts the first corner of triangle t into the triangles before it in the block: flips edges into
-/// ones from it, until none that it sees is illegal. Returns how many.
+/// Inserts the first corner of triangle t, of half-edges t to t + 2, into the triangles before it in the
+/// block: flips edges into ones from it, until none that it sees is illegal. Returns how many.
 uint32_t ConstrainedDelaunay::insert(uint32_t t) {
   uint32_t* const stack = stack_.data();
-  const uint32_t end = t + 3;
+  const uint32_t end = t + 3, apex = corners_[t];
+  const Point2 c = metric_[apex];
   uint32_t flips = 0;
   stack[0] = t;
-  for (uint32_t count = isIllegalBelow(t, end); count > 0; ++flips) {
+  for (uint32_t count = isIllegal(metric_[corners_[t + 1]], metric_[corners_[t + 2]], c,
+                                  twins_[t + 1], end);
+       count > 0; ++flips) {
     t = stack[--count];
     const uint32_t g = twins_[t + 1], g1 = nextInTriangle(g), g2 = prevInTriangle(g);
     const uint32_t s = std::min(std::min(g, g1), g2);
-    const uint32_t d = corners_[g2], twin1 = twins_[g1], twin2 = twins_[g2];
-    corners_[s] = corners_[t], corners_[s + 1] = d, corners_[s + 2] = corners_[t + 2];
-    corners_[t + 2] = d;
+    const uint32_t opposite = corners_[g2], last = corners_[t + 2];
+    const uint32_t twin1 = twins_[g1], twin2 = twins_[g2];
+    const Point2 a = metric_[corners_[t + 1]], b = metric_[last], d = metric_[opposite];
+    corners_[s] = apex, corners_[s + 1] = opposite, corners_[s + 2] = last;
+    corners_[t + 2] = opposite;
     pair(s + 2, twins_[t + 2]), pair(t + 2, s);
     pair(t + 1, twin1), pair(s + 1, twin2);
-    stack[count] = t, count += isIllegalBelow(t, end);
-    stack[count] = s, count += isIllegalBelow(s, end);
+    stack[count] = t, count += isIllegal(a, d, c, twin1, end);
+    stack[count] = s, count += isIllegal(d, b, c, twin2, end);
   }
   return flips;
 }
