@@ -14,9 +14,10 @@ class ArrayView {
  public:
   ArrayView() = default;
   ArrayView(T* data, size_t size) : data_(data), size_(size) {}
-  ArrayView(std::vector<std::remove_const_t<T>>& v) : data_(v.data()), size_(v.size()) {}
-  template <class U = T, class = std::enable_if_t<std::is_const_v<U>>>
-  ArrayView(const std::vector<std::remove_const_t<T>>& v) : data_(v.data()), size_(v.size()) {}
+  template <class A>
+  ArrayView(std::vector<std::remove_const_t<T>, A>& v) : data_(v.data()), size_(v.size()) {}
+  template <class A, class U = T, class = std::enable_if_t<std::is_const_v<U>>>
+  ArrayView(const std::vector<std::remove_const_t<T>, A>& v) : data_(v.data()), size_(v.size()) {}
   template <class U, class = std::enable_if_t<std::is_same_v<const U, T>>>
   ArrayView(ArrayView<U> v) : data_(v.data()), size_(v.size()) {}
 

@@ -1,5 +1,6 @@
 #include "polygon/complement.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sf {
@@ -32,20 +33,18 @@ void takeComplement(const LinkedPolygon& polygon, const Visibility& seen, Linked
   complement.at = polygon.at, complement.vertex = polygon.vertex;
   complement.next = polygon.prev, complement.prev = polygon.next;
   complement.kind.resize(m);
-  double side = 0;
-  for (uint32_t v = 0; v < m; ++v) {
-    complement.kind[v] = seenFromOutside(polygon.kind[v]);
-    const double x = std::fabs(polygon.at[v].x), y = std::fabs(polygon.at[v].y);
-    side = x > side ? x : side;
-    side = y > side ? y : side;
-  }
-  side *= 2;
+  for (uint32_t v = 0; v < m; ++v) complement.kind[v] = seenFromOutside(polygon.kind[v]);
+  const Point2 low = polygon.least, high = polygon.greatest;
+  const double side =
+      2 * std::max({std::fabs(low.x), std::fabs(low.y), std::fabs(high.x), std::fabs(high.y)});
   const Point2 corners[4] = {{-side, -side}, {side, -side}, {side, side}, {-side, side}};
   const VertexKind kinds[4] = {VertexKind::Bottom, VertexKind::RightBank, VertexKind::Ceiling,
                                VertexKind::LeftBank};
   // Numbered in the input's plane, so that a quarter turn takes each to the place of the next.
   const uint32_t turned = polygon.turned ? 1 : 0, lowest = m + 3 * turned;
   complement.turned = polygon.turned;
+  complement.least = corners[0], complement.greatest = corners[2];
+  complement.smallest = std::min(polygon.smallest, side);
   for (uint32_t k = 0; k < 4; ++k) {
     const uint32_t place = (k + turned) % 4;
     complement.at.push_back(corners[place]), complement.kind.push_back(kinds[place]);

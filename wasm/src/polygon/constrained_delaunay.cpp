@@ -35,7 +35,7 @@ bool ConstrainedDelaunay::begin(const LinkedPolygon& loops, ArrayView<uint32_t> 
   count_ = uint32_t(triangles.size());
   if (!charge.add(kPerCorner * count_ + sizeof(Point2) * uint64_t(loops.at.size()))) return false;
   at_ = loops.at.data();
-  metric_ = metricPoints(loops.at, scaled_, isExact_).data();
+  metric_ = metricPoints(loops, scaled_, isExact_).data();
   corners_ = triangles.data(), twins_ = twins.of.data();
   all_ = &twins;
   // Flips stay within a block, unless they take the place of merges.

@@ -1,6 +1,7 @@
 #include "polygon/link_rings.h"
 
 #include <cmath>
+#include <limits>
 
 #include "base/double2.h"
 #include "polygon/turn.h"
@@ -8,20 +9,24 @@
 namespace sf {
 namespace {
 
-/// Magnitudes of coordinates.
+/// What coordinates are like.
 struct Extent {
-  Double2 greatest = {0, 0};
-  Int2 finite = {-1, -1};
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Double2 least = {kInfinity, kInfinity}, greatest = {-kInfinity, -kInfinity};
+  Double2 smallest = {kInfinity, kInfinity};  // magnitude, but for zeros
+  Int2 accepted = {-1, -1};
 
   void add(Point2 p) {
-    const Double2 xy = {p.x, p.y}, size = magnitudes(xy);
-    finite &= size <= kLargestCoordinate;  // false for NaN
-    greatest = greater(size, greatest);
+    const Double2 xy = {p.x, p.y}, size = magnitudes(xy), infinite = {kInfinity, kInfinity};
+    accepted &= size <= kLargestCoordinate;  // false for NaN
+    least = lesser(xy, least), greatest = greater(xy, greatest);
+    smallest = lesser(size > 0 ? size : infinite, smallest);
   }
-  bool isFinite() const { return (finite[0] & finite[1]) != 0; }
+  bool isAccepted() const { return (accepted[0] & accepted[1]) != 0; }
   /// The power of two by which to scale, so that tiny polygons do not live on underflows.
   double scale() const {
-    const double largest = greatest[0] > greatest[1] ? greatest[0] : greatest[1];
+    const Double2 sizes = greater(magnitudes(least), magnitudes(greatest));
+    const double largest = sizes[0] > sizes[1] ? sizes[0] : sizes[1];
     if (largest == 0 || largest > 0x1p-200) return 1;
     int exponent;
     std::frexp(largest, &exponent);
@@ -61,7 +66,7 @@ Outcome firstNotFinite(const PolygonView& polygon) {
 
 /// Whether x has less than three quarters as many local minima and maxima as y, the points taken as
 /// one line.
-bool hasFewerExtremaAlongX(const std::vector<Point2>& at, size_t n) {
+bool hasFewerExtremaAlongX(ArrayView<const Point2> at, size_t n) {
   Int2 count = {0, 0}, wasUp = {0, 0};
   for (size_t i = 1; i < n; ++i) {
     const Double2 from = {at[i - 1].x, at[i - 1].y}, to = {at[i].x, at[i].y};
@@ -75,7 +80,7 @@ bool hasFewerExtremaAlongX(const std::vector<Point2>& at, size_t n) {
 /// Copies positions, and points or the frame, to `linked`, scaled, and turned if that may and should
 /// be; false if one is not finite.
 bool copyScaled(const PolygonView& polygon, bool mayTurn, bool complement, LinkedPolygon& linked) {
-  std::vector<Point2>& at = linked.at;
+  Buffer<Point2>& at = linked.at;
   const size_t n = polygon.positions.size() / 2;
   at.resize(n + (complement ? 4 : polygon.points.size() / 2));
   Extent extent;
@@ -86,17 +91,21 @@ bool copyScaled(const PolygonView& polygon, bool mayTurn, bool complement, Linke
     }
   };
   copy(polygon.positions, at.data());
-  if (complement)
-    frameAround(polygon, at.data() + n);
-  else
-    copy(polygon.points, at.data() + n);
-  if (!extent.isFinite()) return false;
+  if (!complement) copy(polygon.points, at.data() + n);
+  if (!extent.isAccepted()) return false;
+  if (complement) frameAround(polygon, at.data() + n);
+  for (size_t i = n; i < at.size() && complement; ++i) extent.add(at[i]);
   const double scale = extent.scale();
   if (scale != 1)
     for (Point2& q : at) q = {q.x * scale, q.y * scale};
+  const Point2 least = {extent.least[0] * scale, extent.least[1] * scale};
+  const Point2 greatest = {extent.greatest[0] * scale, extent.greatest[1] * scale};
+  linked.least = least, linked.greatest = greatest;
+  linked.smallest = lesser(extent.smallest, swapped(extent.smallest))[0] * scale;
   linked.turned = mayTurn && hasFewerExtremaAlongX(at, n);
-  if (linked.turned)
-    for (Point2& q : at) q = {-q.y, q.x};
+  if (!linked.turned) return true;
+  for (Point2& q : at) q = {-q.y, q.x};
+  linked.least = {-greatest.y, least.x}, linked.greatest = {-least.y, greatest.x};
   return true;
 }
 

@@ -18,9 +18,10 @@ inline Point2 scaledDown(Point2 p, int exponent) {
   return {scaledDown(p.x, exponent), scaledDown(p.y, exponent)};
 }
 
-/// The points themselves where they are in range, or else `scaled`, with the largest magnitude in
-/// [1/2, 1). `isExact` tells whether nothing was lost: if not, what the predicates say may be wrong. O(n).
-ArrayView<const Point2> metricPoints(ArrayView<const Point2> at, std::vector<Point2>& scaled,
+/// The points of the nodes themselves where they are in range, or else `scaled`, with the largest magnitude
+/// in [1/2, 1). `isExact` tells whether nothing was lost: if not, what the predicates say may be wrong. O(1),
+/// or O(n) where they have to be scaled.
+ArrayView<const Point2> metricPoints(const LinkedPolygon& loops, std::vector<Point2>& scaled,
                                      bool& isExact);
 
 }  // namespace sf

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/array_view.h"
+#include "base/buffer.h"
 #include "base/status.h"
 
 namespace sf {
@@ -55,11 +56,13 @@ enum class VertexKind : uint8_t {
 /// rings touch, vertices have more corners than occurrences in rings, and each is a node.
 /// The polygon lies to the left of every link u -> next[u]; an island is linked to itself.
 struct LinkedPolygon {
-  std::vector<Point2> at;        // [m] scaled by a power of two, if need be, and turned if `turned`
+  Buffer<Point2> at;             // [m] scaled by a power of two, if need be, and turned if `turned`
+  Point2 least, greatest;        // corners of the box around all nodes
+  double smallest;               // the least magnitude of their coordinates, but for zeros; or infinite
   bool turned = false;           // by a quarter, counter-clockwise: input x runs upwards
-  std::vector<uint32_t> vertex;  // [m] index in the input
-  std::vector<uint32_t> next, prev;
-  std::vector<VertexKind> kind;
+  Buffer<uint32_t> vertex;       // [m] index in the input
+  Buffer<uint32_t> next, prev;
+  Buffer<VertexKind> kind;
   // [3z] zero-area triangles of input vertices that join the links to the input's edges: where a
   // vertex repeats its predecessor, or lies on an edge that the links therefore divide. Together
   // with a triangulation of the loops they have exactly the edges of the rings for a boundary.

@@ -26,6 +26,7 @@ void widenFrame(LinkedPolygon& complement) {
   const double side = sideOfBox(std::fabs(corners[2].x) / 2, exponent);
   for (uint32_t k = 0; k < 4; ++k)
     corners[k] = {std::copysign(side, corners[k].x), std::copysign(side, corners[k].y)};
+  complement.least = {-side, -side}, complement.greatest = {side, side};
 }
 
 }  // namespace

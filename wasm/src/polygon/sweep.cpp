@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/charge.h"
-#include "base/double2.h"
 #include "polygon/link_rings.h"
 #include "polygon/sweep_state.h"
 
@@ -35,7 +34,7 @@ bool PlaneSweep::isPlain() const { return state_->isPlain; }
 
 void PlaneSweep::findEqual(std::vector<uint32_t>& same) const {
   const State& s = *state_;
-  const std::vector<Point2>& at = s.loops->at;
+  const ArrayView<const Point2> at = s.loops->at;
   same.resize(s.inputNodes);
   for (size_t i = 0; i < s.events.size(); ++i) {
     const bool equal = i > 0 && s.events[i - 1].at == s.events[i].at;
@@ -94,7 +93,7 @@ Outcome PlaneSweep::run(const PolygonView& polygon, bool complement, bool sagsOn
 
 /// Names two consecutive edges in one direction, if there are any, in place of what they cause.
 void State::findSpike() {
-  const std::vector<Point2>& at = loops->at;
+  const ArrayView<const Point2> at = loops->at;
   const uint32_t rings = uint32_t(view->starts.size()) - 1;
   for (uint32_t c = 0; c < rings; ++c)
     for (uint32_t v = view->starts[c]; v < view->starts[c + 1]; ++v) {
@@ -119,7 +118,7 @@ bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility&
   const size_t count = makeEvents(EdgeOrder::takesHints(chainCount));
   isPlain = count == m;
   if (!work.tick(uint32_t(std::min<size_t>(m, 1u << 24)) * 60)) return false;
-  edges.reset(chainCount, least, greatest);
+  edges.reset(chainCount, linked.least, linked.greatest);
   seen->order.clear();
   seen->left.resize(m);
   if (!sagsOnly) {
@@ -190,19 +189,15 @@ State::Event State::eventOf(uint32_t v, bool hints) const {
 /// Makes the events, sorted by height; returns how many there are.
 size_t State::makeEvents(bool hints) {
   const size_t m = loops->at.size();
-  Double2 low = {HUGE_VAL, HUGE_VAL}, high = -low;
-  size_t count = 0;
-  for (size_t v = 0; v < m; ++v) {
-    const Double2 at = {loops->at[v].x, loops->at[v].y};
-    low = lesser(at, low), high = greater(at, high);
-    count += loops->kind[v] != VertexKind::Unused;
-  }
-  least = {low[0], low[1]}, greatest = {high[0], high[1]};
-  const double toKey = double(1 << 23) / (greatest.y - least.y);
+  const size_t count =
+      m - size_t(std::count(loops->kind.begin(), loops->kind.end(), VertexKind::Unused));
+  const double toKey = double(1 << 23) / (loops->greatest.y - loops->least.y);
   if (m <= kFewToRank && toKey < 1e300) {
     rankEvents(hints, toKey);
     events.resize(count);
-    sortNearby();
+    bool rises = true;
+    for (size_t i = 1; i < count; ++i) rises &= events[i - 1].at.y < events[i].at.y;
+    if (!rises) sortNearby();
     return count;
   }
   events.resize(count);
@@ -219,17 +214,20 @@ void State::rankEvents(bool hints, double toKey) {
   const size_t count = loops->at.size();
   alignas(16) int32_t keys[kFewToRank + 8];
   for (size_t v = 0; v < count; ++v) {
-    const int32_t key = int32_t((loops->at[v].y - least.y) * toKey) << 7 | int32_t(v);
+    const int32_t key = int32_t((loops->at[v].y - loops->least.y) * toKey) << 7 | int32_t(v);
     keys[v] = loops->kind[v] == VertexKind::Unused ? INT32_MAX : key;
   }
+  keys[count] = INT32_MAX;
   events.resize(count);
   for (size_t i = 0; i < count; i += 8) {
     Int4 a, b;
     __builtin_memcpy(&a, keys + i, 16), __builtin_memcpy(&b, keys + i + 4, 16);
     Int4 rankA = {0, 0, 0, 0}, rankB = {0, 0, 0, 0};
-    for (size_t j = 0; j < count; ++j) {
+    for (size_t j = 0; j < count; j += 2) {
       const Int4 key = {keys[j], keys[j], keys[j], keys[j]};
+      const Int4 key1 = {keys[j+1], keys[j+1], keys[j+1], keys[j+1]};
       rankA -= key < a, rankB -= key < b;
+      rankA -= key1 < a, rankB -= key1 < b;
     }
     int32_t ranks[8];
     __builtin_memcpy(ranks, &rankA, 16), __builtin_memcpy(ranks + 4, &rankB, 16);
@@ -242,7 +240,7 @@ void State::rankEvents(bool hints, double toKey) {
 /// each bucket.
 void State::sortEvents() {
   const size_t count = events.size(), layerCount = std::min(count / kFewInBucket, kMostLayers);
-  const double scale = double(layerCount) / (greatest.y - least.y);
+  const double scale = double(layerCount) / (loops->greatest.y - loops->least.y);
   if (!(scale < 1e300)) {
     std::sort(events.begin(), events.end(), comesBefore);
     return;
@@ -250,7 +248,7 @@ void State::sortEvents() {
   layers.assign(layerCount + 1, {0, 0});
   places.resize(count);
   for (size_t i = 0; i < count; ++i) {
-    places[i] = uint32_t((events[i].at.y - least.y) * scale);
+    places[i] = uint32_t((events[i].at.y - loops->least.y) * scale);
     layers[places[i]].count += 1;
   }
   double sum = 0;
@@ -258,7 +256,7 @@ void State::sortEvents() {
   buckets.assign(count + 2, 0);
   for (size_t i = 0; i < count; ++i) {
     const Layer& layer = layers[places[i]];
-    const double height = (events[i].at.y - least.y) * scale - places[i];
+    const double height = (events[i].at.y - loops->least.y) * scale - places[i];
     places[i] = uint32_t(layer.below + height * layer.count);
     ++buckets[places[i] + 1];
   }

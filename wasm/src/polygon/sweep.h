@@ -27,7 +27,7 @@ namespace sf {
 /// the right u -> next[u]. kNone where the polygon does not lie on that side.
 struct Visibility {
   std::vector<uint32_t> order;        // used nodes by increasing height
-  std::vector<uint32_t> left, right;  // [m]
+  Buffer<uint32_t> left, right;       // [m]
 };
 
 struct SweepState;  // sweep_state.h

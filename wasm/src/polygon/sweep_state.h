@@ -36,12 +36,12 @@ struct SweepState {
 
   // Kept from polygon to polygon.
   EdgeOrder edges;
-  std::vector<Event> events, unsorted;
+  Buffer<Event> events, unsorted;
   std::vector<Layer> layers;
-  std::vector<uint32_t> buckets, places;
+  Buffer<uint32_t> buckets, places;
   // [m] The edges of a ring that lead up from a local minimum to a local maximum share one record,
   // 2i or 2i+1 for minimum i. Of a node between two such chains the one along which its ring runs up.
-  std::vector<uint32_t> chains;
+  Buffer<uint32_t> chains;
   std::vector<uint8_t> reversed;
   std::vector<HalfEdge> lower, upper;
   std::vector<uint32_t> strands;
@@ -53,7 +53,6 @@ struct SweepState {
   LinkedPolygon* loops = nullptr;
   Visibility* seen = nullptr;
   bool sagsOnly = false;
-  Point2 least{}, greatest{};
   size_t inputNodes = 0;  // those that are vertices of the input
   bool isPlain = true;    // no two vertices at one place so far, and none on an edge
   Outcome outcome;        // the first crossing

@@ -176,7 +176,7 @@ bool TrapezoidTriangulator::improve(const LinkedPolygon& linked, const Visibilit
   if (!charge.add(8 * uint64_t(mesh_.corners.size()))) return false;
   mesh_.at = linked.at;
   bool isExact;
-  mesh_.metric = metricPoints(linked.at, scaled_, isExact);
+  mesh_.metric = metricPoints(linked, scaled_, isExact);
   mesh_.unused.clear();
   mesh_.edgeFrom.clear();
   if (!findTwins(mesh_.corners, nodes, work, mesh_.twins)) return false;
