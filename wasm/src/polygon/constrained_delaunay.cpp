@@ -96,13 +96,13 @@ bool ConstrainedDelaunay::improveBlocks(Work& work, Improve improve) {
   return giveUpEdges(work);
 }
 
-/// Whether the apex of the triangle of half-edge g, which runs from b to a, lies inside the circle through
-/// a, b, c; false if there is none before half-edge `end`. Without a branch that could not be foretold, so
-/// that two of these are computed at once.
+/// Whether the corner that half-edge g sees, from b to a, lies inside the circle through a, b, c; false if
+/// there is no triangle before half-edge `end`. Without a branch that could not be foretold, so that two of
+/// these are computed at once.
 inline __attribute__((always_inline)) uint32_t ConstrainedDelaunay::isIllegal(
     Point2 a, Point2 b, Point2 c, uint32_t g, uint32_t end) const {
   const bool open = g < end;
-  const Point2 d = metric_[corners_[prevInTriangle(open ? g : 0)]];
+  const Point2 d = metric_[corners_[open ? g : 0]];
   const CircleSide side = sideOfCircle(a, b, c, d);
   bool inside = side.sine < 0;
   if (open & !side.isCertain) inside = incircle(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y) > 0;
@@ -117,19 +117,18 @@ uint32_t ConstrainedDelaunay::insert(uint32_t t) {
   const Point2 c = metric_[apex];
   uint32_t flips = 0;
   stack[0] = t;
-  for (uint32_t count = isIllegal(metric_[corners_[t + 1]], metric_[corners_[t + 2]], c,
-                                  twins_[t + 1], end);
+  for (uint32_t count = isIllegal(metric_[corners_[t + 1]], metric_[corners_[t + 2]], c, twins_[t], end);
        count > 0; ++flips) {
     t = stack[--count];
-    const uint32_t g = twins_[t + 1], g1 = nextInTriangle(g), g2 = prevInTriangle(g);
+    const uint32_t g = twins_[t], g1 = nextInTriangle(g), g2 = prevInTriangle(g);
     const uint32_t s = std::min(std::min(g, g1), g2);
-    const uint32_t opposite = corners_[g2], last = corners_[t + 2];
+    const uint32_t opposite = corners_[g], last = corners_[t + 2];
     const uint32_t twin1 = twins_[g1], twin2 = twins_[g2];
     const Point2 a = metric_[corners_[t + 1]], b = metric_[last], d = metric_[opposite];
     corners_[s] = apex, corners_[s + 1] = opposite, corners_[s + 2] = last;
     corners_[t + 2] = opposite;
-    pair(s + 2, twins_[t + 2]), pair(t + 2, s);
-    pair(t + 1, twin1), pair(s + 1, twin2);
+    pair(s + 1, twins_[t + 1]), pair(t + 1, s + 2);
+    pair(t, twin1), pair(s, twin2);
     stack[count] = t, count += isIllegal(a, d, c, twin1, end);
     stack[count] = s, count += isIllegal(d, b, c, twin2, end);
   }
@@ -183,8 +182,8 @@ bool ConstrainedDelaunay::giveUpEdges(Work& work) {
 // Inline: calls would take a twentieth of the time.
 inline __attribute__((always_inline)) bool ConstrainedDelaunay::isIllegal(uint32_t h) const {
   const uint32_t g = twins_[h];
-  const uint32_t a = corners_[h], b = corners_[g];
-  const uint32_t c = corners_[prevInTriangle(h)], d = corners_[prevInTriangle(g)];
+  const uint32_t a = corners_[nextInTriangle(h)], b = corners_[prevInTriangle(h)];
+  const uint32_t c = corners_[h], d = corners_[g];
   if (!inCircle(metric_[a], metric_[b], metric_[c], metric_[d])) return false;
   // Implied where circles are exact; elsewhere what they say may be all wrong.
   return isExact_ || (turn(at_[a], at_[d], at_[c]) > 0 && turn(at_[b], at_[c], at_[d]) > 0);
@@ -194,7 +193,7 @@ inline __attribute__((always_inline)) bool ConstrainedDelaunay::isIllegal(uint32
 void ConstrainedDelaunay::flip(uint32_t h) {
   const uint32_t g = twins_[h];
   const uint32_t h1 = nextInTriangle(h), g1 = nextInTriangle(g);
-  corners_[h1] = corners_[prevInTriangle(g)], corners_[g1] = corners_[prevInTriangle(h)];
+  corners_[prevInTriangle(h)] = corners_[g], corners_[prevInTriangle(g)] = corners_[h];
   pair(h, twins_[g1]), pair(g, twins_[h1]), pair(h1, g1);
 }
 
@@ -219,7 +218,7 @@ uint32_t ConstrainedDelaunay::create(uint32_t a, uint32_t b, uint32_t c) {
   SF_ASSERT(turn(at_[a], at_[b], at_[c]) > 0);
   const uint32_t h = 3 * free_.last();
   free_.pop();
-  corners_[h] = a, corners_[h + 1] = b, corners_[h + 2] = c;
+  corners_[h] = c, corners_[h + 1] = a, corners_[h + 2] = b;
   return h;
 }
 
@@ -229,7 +228,7 @@ void ConstrainedDelaunay::takeLeft(uint32_t left, uint32_t right) {
     Border& border = left_.last();
     const uint32_t h = border.outer;
     if (!isOpen(h)) return;
-    const uint32_t after = nextInTriangle(h), before = prevInTriangle(h), apex = corners_[before];
+    const uint32_t after = nextInTriangle(h), before = prevInTriangle(h), apex = corners_[h];
     if (!inCircle(metric_[left], metric_[border.vertex], metric_[apex], metric_[right])) return;
     free_.push(h / 3);
     border.outer = twins_[after];
@@ -243,7 +242,7 @@ void ConstrainedDelaunay::takeRight(uint32_t left, uint32_t right) {
     Border& border = right_.last();
     const uint32_t h = border.outer;
     if (!isOpen(h)) return;
-    const uint32_t after = nextInTriangle(h), before = prevInTriangle(h), apex = corners_[before];
+    const uint32_t after = nextInTriangle(h), before = prevInTriangle(h), apex = corners_[h];
     if (!inCircle(metric_[border.vertex], metric_[right], metric_[apex], metric_[left])) return;
     free_.push(h / 3);
     border.outer = twins_[before];
@@ -254,12 +253,12 @@ void ConstrainedDelaunay::takeRight(uint32_t left, uint32_t right) {
 /// Merges what lies to the left of edge h, which is illegal, and to the right of it. Returns how many
 /// triangles change.
 uint32_t ConstrainedDelaunay::merge(uint32_t h) {
-  const uint32_t g = twins_[h], bottom = corners_[h], top = corners_[g];
+  const uint32_t g = twins_[h], bottom = corners_[nextInTriangle(h)], top = corners_[prevInTriangle(h)];
   const uint32_t h1 = nextInTriangle(h), h2 = prevInTriangle(h);
   const uint32_t g1 = nextInTriangle(g), g2 = prevInTriangle(g);
   left_.clear(), right_.clear(), free_.clear();
-  left_.push({top, twins_[h1]}), left_.push({corners_[h2], twins_[h2]});
-  right_.push({top, twins_[g2]}), right_.push({corners_[g2], twins_[g1]});
+  left_.push({top, twins_[h1]}), left_.push({corners_[h], twins_[h2]});
+  right_.push({top, twins_[g2]}), right_.push({corners_[g], twins_[g1]});
   free_.push(h / 3), free_.push(g / 3);
   // The first triangle is the tangent of two convex chains: of the neighbours of the lower end to
   // either side, under inversion at it.

@@ -137,8 +137,8 @@ void Flood::wedgeAhead(Node* v, Node* c, Node* end) {
     if (!(turn(v->at, c->at, d->at) > 0)) break;
     if (paired_) {
       const uint32_t h = nextHalf();
-      twins_.pair(h, v->below), twins_.pair(h + 1, c->below);
-      v->below = h + 2;
+      twins_.pair(h, c->below), twins_.pair(h + 2, v->below);
+      v->below = h + 1;
     }
     emit(v, c, d);
     c = d;
@@ -153,8 +153,8 @@ void Flood::wedgeBehind(Node* v, Node* c, Node* end) {
     if (!(turn(d->at, c->at, v->at) > 0)) break;
     if (paired_) {
       const uint32_t h = nextHalf();
-      twins_.pair(h + 1, d->below), twins_.pair(h + 2, c->below);
-      d->below = h;
+      twins_.pair(h, d->below), twins_.pair(h + 1, c->below);
+      d->below = h + 2;
     }
     emit(v, d, c);
     c = d;
@@ -166,8 +166,8 @@ void Flood::fill(Node* ceiling) {
   for (Node* c = chain_.left; c != chain_.right; c = c->next) {
     if (paired_) {
       const uint32_t h = nextHalf();
-      twins_.pair(h, ceiling->below), twins_.pair(h + 1, c->below);
-      ceiling->below = h + 2;
+      twins_.pair(h, c->below), twins_.pair(h + 2, ceiling->below);
+      ceiling->below = h + 1;
     }
     emit(ceiling, c, c->next);
   }

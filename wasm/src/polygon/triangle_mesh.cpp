@@ -70,13 +70,21 @@ void ClosableTwins::close(uint32_t h) {
 void ClosableTwins::fromPlain() {
   const uint32_t halves = uint32_t(of.size());
   reset(halves, 0);
-  for (uint32_t h = 0; h < halves; ++h) of[h] = std::min(of[h], outside);
+  const auto renamed = [&](uint32_t g) { return g == kNone ? outside : prevInTriangle(g); };
+  for (uint32_t t = 0; t < halves; t += 3) {
+    const uint32_t first = of[t];
+    of[t] = renamed(of[t + 1]), of[t + 1] = renamed(of[t + 2]), of[t + 2] = renamed(first);
+  }
 }
 
 void ClosableTwins::toPlain(uint32_t halves) {
   for (uint32_t c = outside + 2; c < end; c += 2) pair(of[c], of[c + 1]);
   of.resize(halves);
-  for (uint32_t& g : of) g = g == outside ? kNone : g;
+  const auto renamed = [&](uint32_t g) { return g == outside ? kNone : nextInTriangle(g); };
+  for (uint32_t t = 0; t < halves; t += 3) {
+    const uint32_t last = of[t + 2];
+    of[t + 2] = renamed(of[t + 1]), of[t + 1] = renamed(of[t]), of[t] = renamed(last);
+  }
 }
 
 uint32_t TriangleMesh::create(uint32_t a, uint32_t b, uint32_t c) {

@@ -27,10 +27,11 @@ inline uint32_t prevInTriangle(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; 
 bool findTwins(ArrayView<const uint32_t> corners, uint32_t vertexCount, Work& work,
                std::vector<uint32_t>& twins);
 
-/// Twins while edges between triangles may be closed for a time. All that lies beyond the triangles has
-/// half-edges of its own, so that pairing takes no questions: `outside` stands for the far sides of all
-/// edges of the loops; after it come those of closed edges, two by two. A closed edge of half-edges h and
-/// g with far sides c and c ^ 1 has of[h] = c, of[c] = h, of[g] = c ^ 1, of[c ^ 1] = g.
+/// Twins while edges between triangles may be closed for a time. Half-edges are named otherwise here: 3t + k
+/// is the one opposite corner k, so that corners[h] is what a half-edge sees. All that lies beyond the
+/// triangles has half-edges of its own, and pairing takes no questions: `outside` stands for the far sides
+/// of all edges of the loops; after it come those of closed edges, two by two. A closed edge of half-edges
+/// h and g with far sides c and c + 1 has of[h] = c, of[c] = h, of[g] = c + 1, of[c + 1] = g.
 struct ClosableTwins {
   std::vector<uint32_t> of;  // [at least end]; of[outside] means nothing
   uint32_t outside = 0;      // even, not below the number of half-edges
