@@ -12,18 +12,21 @@
 namespace sf {
 namespace {
 
-// So many triangles next to each other in the list, to the power of two, are a block; so few are one.
-// Within a block flips are fewer than what merges have to prepare, also on smooth curves; measured.
-constexpr int kBlockBits = 4;
-constexpr uint32_t kBlockHalves = 3u << kBlockBits, kFewHalves = 2 * kBlockHalves;
+// Of triangles in any order so many next to each other are a block, or twice as many that are all there are.
+// Within it flips are fewer than what merges have to prepare, also on smooth curves; measured.
+constexpr uint32_t kBlockHalves = 3 * 32, kFewHalves = 2 * kBlockHalves;
+// Of triangles of flooding at most so many, for which so many flips in all, and so many a triangle, are
+// enough: where flips become more, merges are less work; measured.
+constexpr uint32_t kMostHalves = 3 * 256;
+constexpr int32_t kFlips = 24, kFlipsPerTriangle = 2;
+// Triangles are near each other in the list if they are in the same 2^4 of them.
+constexpr int kNearBits = 4;
 constexpr int kLevels = 32;
-constexpr uint32_t kMostHalves = 3 * 256, kA = 24;
-constexpr double kB = 2 / 3.0;
 
-/// How far apart the blocks of two triangles are: the first binary digit in which they differ.
+/// How far apart two triangles are in the list: the first binary digit in which their places differ.
 int levelOf(uint32_t t, uint32_t s) {
   int level = 0;
-  for (uint32_t d = (t ^ s) >> kBlockBits; d != 0; d >>= 1) ++level;
+  for (uint32_t d = (t ^ s) >> kNearBits; d != 0; d >>= 1) ++level;
   return level;
 }
 
@@ -67,18 +70,23 @@ bool ConstrainedDelaunay::runFlooded(const LinkedPolygon& loops, Work& work, Flo
   return insertBlocks(work) && giveUpEdges(work);
 }
 
+void ConstrainedDelaunay::close(uint32_t h) {
+  all_->close(h);
+  twins_ = all_->of.data();
+}
+
+/// Makes blocks constrained Delaunay, vertex by vertex. A block ends where flips become many.
 bool ConstrainedDelaunay::insertBlocks(Work& work) {
-  uint32_t first = 0;
-  while (first < count_) {
-    const uint32_t most = std::min(first + kMostHalves, count_);
-    uint32_t t = first, flips = 0;
-    for (; t < most && flips <= kA + kB * (t - first); t += 3) {
-      for (uint32_t h = t; h < t + 3 && first > 0; ++h)
-        if (twins_[h] < first) all_->close(h), twins_ = all_->of.data();
-      flips += insert(t);
+  for (uint32_t first = 0, t = 0; t < count_; first = t) {
+    const uint32_t end = std::min(first + kMostHalves, count_);
+    int32_t left = kFlips, flips = 0;
+    for (; t < end && left >= 0; t += 3) {
+      for (uint32_t h = t; first > 0 && h < t + 3; ++h)
+        if (twins_[h] < first) close(h);
+      const int32_t more = int32_t(insert(t));
+      left += kFlipsPerTriangle - more, flips += more;
     }
-    if (!work.tick(20 * (t - first) + 50 * flips)) return false;
-    first = t;
+    if (!work.tick(20 * (t - first) + 50 * uint32_t(flips))) return false;
   }
   return true;
 }
@@ -90,7 +98,7 @@ bool ConstrainedDelaunay::improveBlocks(Work& work, Improve improve) {
   for (uint32_t first = 0; first < count_; first += size) {
     const uint32_t end = std::min(first + size, count_);
     for (uint32_t h = first; h < end && end < count_; ++h)
-      if (twins_[h] >= end && twins_[h] < count_) all_->close(h), twins_ = all_->of.data();
+      if (twins_[h] >= end && isOpen(twins_[h])) close(h);
     if (!improve(first, end)) return false;
   }
   return giveUpEdges(work);

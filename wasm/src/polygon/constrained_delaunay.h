@@ -78,6 +78,7 @@ class ConstrainedDelaunay {
   void takeRight(uint32_t left, uint32_t right);
   uint32_t create(uint32_t a, uint32_t b, uint32_t c);
   void pair(uint32_t h, uint32_t g) { twins_[h] = g, twins_[g] = h; }
+  void close(uint32_t h);
   bool isOpen(uint32_t twin) const { return twin < count_; }
 
   ClosableTwins* all_ = nullptr;

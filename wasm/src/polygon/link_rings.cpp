@@ -113,11 +113,13 @@ bool copyScaled(const PolygonView& polygon, bool mayTurn, bool complement, Linke
 class RingLinker {
  public:
   RingLinker(LinkedPolygon& linked, uint32_t first, uint32_t last)
-      : p_(linked), at_(linked.at.data()), first_(first), last_(last) {}
+      : p_(linked), at_(linked.at.data()), first_(first), last_(last) {
+    look();
+  }
 
   /// Whether the ring runs counter-clockwise. At its lowest point all edges leave upwards, and the
   /// leftmost of them bounds the inside from the left: it has to lead down.
-  bool isCounterClockwise();
+  bool isCounterClockwise() const;
   bool repeatsItself() const { return repeats_; }
   /// Whether all vertices are at two places, of which neighbours do not share one.
   bool goesToAndFro() const;
@@ -126,43 +128,17 @@ class RingLinker {
   bool linkDistinct(bool reversed);
 
  private:
+  void look();
   uint32_t after(uint32_t i) const { return i == last_ ? first_ : i + 1; }
   uint32_t before(uint32_t i) const { return i == first_ ? last_ : i - 1; }
 
   LinkedPolygon& p_;
   const Point2* at_;
   const uint32_t first_, last_;
+  uint32_t lowest_ = 0;      // the first of the lowest vertices
+  bool comesAgain_ = false;  // there are others at its place
   bool repeats_ = false;
 };
-
-bool RingLinker::isCounterClockwise() {
-  uint32_t low = first_;
-  bool repeats = at_[last_] == at_[first_];
-  for (uint32_t i = first_; i < last_; ++i) {
-    if (below(at_[i + 1], at_[low])) low = i + 1;
-    repeats |= at_[i] == at_[i + 1];
-  }
-  repeats_ = repeats;
-  const Point2 p = at_[low];
-  Point2 leftmost = p;
-  bool down = false;
-  const auto consider = [&](Point2 q, bool leadsDown) {
-    if (q == p) return;
-    if (leftmost == p || turn(p, leftmost, q) > 0) leftmost = q, down = leadsDown;
-  };
-  for (uint32_t i = low; i <= last_; ++i) {
-    if (!(at_[i] == p)) continue;
-    consider(at_[before(i)], true);
-    consider(at_[after(i)], false);
-  }
-  return down;
-}
-
-bool RingLinker::goesToAndFro() const {
-  for (uint32_t i = first_; i + 2 <= last_; ++i)
-    if (!(at_[i] == at_[i + 2])) return false;
-  return true;
-}
 
 constexpr VertexKind kKinds[4] = {VertexKind::LeftBank, VertexKind::Bottom, VertexKind::Ceiling,
                                   VertexKind::RightBank};
@@ -172,23 +148,64 @@ uint32_t rises(Point2 a, Point2 b) {
   return uint32_t(a.y < b.y) | (uint32_t(a.y == b.y) & uint32_t(a.x < b.x));
 }
 
+/// Finds the lowest vertex, whether vertices are repeated, and the kinds as the ring comes.
+void RingLinker::look() {
+  VertexKind* kind = p_.kind.data();
+  Point2 from = at_[last_], low = at_[first_];
+  uint32_t up = rises(from, low), lowest = first_;
+  bool repeats = from == low, again = false;
+  from = low;
+  for (uint32_t i = first_; i < last_; ++i) {
+    const Point2 to = at_[i + 1];
+    const uint32_t upNext = rises(from, to);
+    repeats |= (from.x == to.x) & (from.y == to.y);
+    if (to.y <= low.y) {
+      if (below(to, low)) low = to, lowest = i + 1, again = false;
+      else again |= to == low;
+    }
+    kind[i] = kKinds[2 * up + upNext];
+    up = upNext, from = to;
+  }
+  kind[last_] = kKinds[2 * up + rises(from, at_[first_])];
+  lowest_ = lowest, repeats_ = repeats, comesAgain_ = again;
+}
+
+bool RingLinker::isCounterClockwise() const {
+  const Point2 p = at_[lowest_];
+  Point2 leftmost = p;
+  bool down = false;
+  const auto consider = [&](Point2 q, bool leadsDown) {
+    if (q == p) return;
+    if (leftmost == p || turn(p, leftmost, q) > 0) leftmost = q, down = leadsDown;
+  };
+  const auto considerBoth = [&](uint32_t i) {
+    consider(at_[before(i)], true);
+    consider(at_[after(i)], false);
+  };
+  considerBoth(lowest_);
+  for (uint32_t i = lowest_ + 1; comesAgain_ && i <= last_; ++i)
+    if (at_[i] == p) considerBoth(i);
+  return down;
+}
+
+bool RingLinker::goesToAndFro() const {
+  for (uint32_t i = first_; i + 2 <= last_; ++i)
+    if (!(at_[i] == at_[i + 2])) return false;
+  return true;
+}
+
 void RingLinker::link(bool reversed) {
-  const uint32_t turned = reversed ? 3 : 0;
-  uint32_t up = rises(at_[last_], at_[first_]);
   uint32_t* before = (reversed ? p_.next : p_.prev).data();
   uint32_t* after = (reversed ? p_.prev : p_.next).data();
   VertexKind* kind = p_.kind.data();
-  for (uint32_t i = first_; i < last_; ++i) {
-    const uint32_t upNext = rises(at_[i], at_[i + 1]);
-    // A direction that does not change turns round with the ring, one that does does not.
-    kind[i] = kKinds[up == upNext ? (2 * up + upNext) ^ turned : 2 * up + upNext];
-    before[i] = i - 1, after[i] = i + 1;
-    up = upNext;
-  }
-  const uint32_t upNext = rises(at_[last_], at_[first_]);
-  kind[last_] = kKinds[up == upNext ? (2 * up + upNext) ^ turned : 2 * up + upNext];
-  before[first_] = last_;
-  before[last_] = last_ - 1, after[last_] = first_;
+  for (uint32_t i = first_; i <= last_; ++i) before[i] = i - 1;
+  for (uint32_t i = first_; i <= last_; ++i) after[i] = i + 1;
+  before[first_] = last_, after[last_] = first_;
+  if (!reversed) return;
+  // Banks turn round with the ring, minima and maxima do not.
+  static_assert(int(VertexKind::LeftBank) == 0 && int(VertexKind::RightBank) == 1, "told by numbers");
+  for (uint32_t i = first_; i <= last_; ++i)
+    kind[i] = VertexKind(uint8_t(kind[i]) ^ uint8_t(uint8_t(kind[i]) < 2));
 }
 
 bool RingLinker::linkDistinct(bool reversed) {

@@ -214,7 +214,11 @@ void State::rankEvents(bool hints, double toKey) {
   const size_t count = loops->at.size();
   alignas(16) int32_t keys[kFewToRank + 8];
   for (size_t v = 0; v < count; ++v) {
-    const int32_t key = int32_t((loops->at[v].y - loops->least.y) * toKey) << 7 | int32_t(v);
+    // The last bits of a number beyond 2^52 are an integer.
+    const double height = (loops->at[v].y - loops->least.y) * toKey + 0x1p52;
+    uint64_t bits;
+    __builtin_memcpy(&bits, &height, 8);
+    const int32_t key = int32_t(bits) << 7 | int32_t(v);
     keys[v] = loops->kind[v] == VertexKind::Unused ? INT32_MAX : key;
   }
   keys[count] = INT32_MAX;
