@@ -104,30 +104,20 @@ bool ConstrainedDelaunay::improveBlocks(Work& work, Improve improve) {
   return giveUpEdges(work);
 }
 
-/// Whether the corner that half-edge g sees, from b to a, lies inside the circle through a, b, c; false if
-/// there is no triangle before half-edge `end`. Without a branch that could not be foretold, so that two of
-/// these are computed at once.
-inline __attribute__((always_inline)) uint32_t ConstrainedDelaunay::isIllegal(
-    Point2 a, Point2 b, Point2 c, uint32_t g, uint32_t end) const {
-  const bool open = g < end;
-  const Point2 d = metric_[corners_[open ? g : 0]];
-  const CircleSide side = sideOfCircle(a, b, c, d);
-  bool inside = side.sine < 0;
-  if (open & !side.isCertain) inside = incircle(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y) > 0;
-  return uint32_t(inside) & uint32_t(open);
-}
-
 /// Inserts the first corner of triangle t, of half-edges t to t + 2, into the triangles before it in the
 /// block: flips edges into ones from it, until none that it sees is illegal. Returns how many.
 uint32_t ConstrainedDelaunay::insert(uint32_t t) {
-  uint32_t* const stack = stack_.data();
   const uint32_t end = t + 3, apex = corners_[t];
   const Point2 c = metric_[apex];
-  uint32_t flips = 0;
-  stack[0] = t;
-  for (uint32_t count = isIllegal(metric_[corners_[t + 1]], metric_[corners_[t + 2]], c, twins_[t], end);
-       count > 0; ++flips) {
-    t = stack[--count];
+  // Whether the corner that half-edge g, from b to a, sees lies inside the circle through a, b, c. What
+  // comes later in the list is closed for now.
+  const auto isIllegal = [&](Point2 a, Point2 b, uint32_t g) {
+    return g < end && inCircle(a, b, c, metric_[corners_[g]]);
+  };
+  uint32_t* const waiting = stack_.data();
+  uint32_t count = 0, flips = 0;
+  if (!isIllegal(metric_[corners_[t + 1]], metric_[corners_[t + 2]], twins_[t])) return 0;
+  for (;;) {
     const uint32_t g = twins_[t], g1 = nextInTriangle(g), g2 = prevInTriangle(g);
     const uint32_t s = std::min(std::min(g, g1), g2);
     const uint32_t opposite = corners_[g], last = corners_[t + 2];
@@ -137,10 +127,17 @@ uint32_t ConstrainedDelaunay::insert(uint32_t t) {
     corners_[t + 2] = opposite;
     pair(s + 1, twins_[t + 1]), pair(t + 1, s + 2);
     pair(t, twin1), pair(s, twin2);
-    stack[count] = t, count += isIllegal(a, d, c, twin1, end);
-    stack[count] = s, count += isIllegal(d, b, c, twin2, end);
+    ++flips;
+    const bool goesOn = isIllegal(a, d, twin1), waits = isIllegal(d, b, twin2);
+    if (goesOn) {
+      if (waits) waiting[count++] = s;
+    } else if (waits) {
+      t = s;
+    } else {
+      if (count == 0) return flips;
+      t = waiting[--count];
+    }
   }
-  return flips;
 }
 
 inline void ConstrainedDelaunay::push(uint32_t h) {

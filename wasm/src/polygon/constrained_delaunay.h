@@ -65,7 +65,6 @@ class ConstrainedDelaunay {
   bool improveBlocks(Work& work, Improve improve);
   bool insertBlocks(Work& work);
   uint32_t insert(uint32_t t);
-  uint32_t isIllegal(Point2 a, Point2 b, Point2 c, uint32_t g, uint32_t end) const;
   bool flipBlock(uint32_t first, uint32_t end, Work& work);
   bool isIllegal(uint32_t h) const;
   void flip(uint32_t h);

@@ -1,7 +1,7 @@
 // incircle with its filter inline.
 // Source: Cline, Renka 1984, "A storage-efficient method for construction of a Thiessen
 // triangulation", for the determinant by the angles at c and d over the chord from a to b: it is
-// -sin(C + D) times lengths. Differs: computed two numbers at a time.
+// -|sin(C + D)| times lengths. Differs: computed two numbers at a time.
 #pragma once
 #include <cmath>
 
@@ -11,14 +11,9 @@
 
 namespace sf {
 
-/// What a filter says of d and the circle through a, b, c: the sine is negative if d lies inside, where
-/// that is certain.
-struct CircleSide {
-  double sine;
-  bool isCertain;
-};
-
-inline CircleSide sideOfCircle(Point2 a, Point2 b, Point2 c, Point2 d) {
+/// Whether d lies inside the circle through a, b, c, which turn left. Exact in the range of
+/// base/predicates.h.
+inline bool inCircle(Point2 a, Point2 b, Point2 c, Point2 d) {
   const Double2 a2 = {a.x, a.y}, b2 = {b.x, b.y}, c2 = {c.x, c.y}, d2 = {d.x, d.y};
   const Double2 ca = a2 - c2, cb = b2 - c2, da = a2 - d2, db = b2 - d2;
   const Double2 dotC = ca * cb, dotD = db * da;
@@ -32,14 +27,7 @@ inline CircleSide sideOfCircle(Point2 a, Point2 b, Point2 c, Point2 d) {
       (magnitudes(dotX) + magnitudes(dotY)) * swapped(magnitudes(crossX) + magnitudes(crossY));
   const double sine = terms[0] + terms[1];
   // Ten roundings in each term, and as many in its size; the last number is above all underflows.
-  return {sine, std::fabs(sine) > 0x1p-49 * (sizes[0] + sizes[1]) + 1e-290};
-}
-
-/// Whether d lies inside the circle through a, b, c, which turn left. Exact in the range of
-/// base/predicates.h.
-inline bool inCircle(Point2 a, Point2 b, Point2 c, Point2 d) {
-  const CircleSide side = sideOfCircle(a, b, c, d);
-  if (side.isCertain) return side.sine < 0;
+  if (std::fabs(sine) > 0x1p-49 * (sizes[0] + sizes[1]) + 1e-290) return sine < 0;
   return incircle(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y) > 0;
 }
 
