@@ -1,8 +1,5 @@
 #include "polygon/edge_order.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/assert.h"
 
 namespace sf {
@@ -24,21 +21,14 @@ bool isIndexed(uint32_t e) { return priorityOf(e) % kPerIndexed == 0; }
 
 }  // namespace
 
-void EdgeOrder::reset(size_t capacity, Point2 least, Point2 greatest) {
-  if (edges_.size() < capacity + 2) edges_.resize(capacity + 2);
-  walls_ = uint32_t(capacity);
-  const double width = greatest.x - least.x, height = greatest.y - least.y;
-  const double size = std::max({std::fabs(least.x), std::fabs(least.y), std::fabs(greatest.x), std::fabs(greatest.y)});
-  const double d = std::max(width, height) + 0x1p-40 * size;
-  CrossedEdge &left = edges_[walls_], &right = edges_[walls_ + 1];
-  left.lo = {least.x - d, least.y - d}, left.hi = {least.x - d, greatest.y + d};
-  right.lo = {greatest.x + d, least.y - d}, right.hi = {greatest.x + d, greatest.y + d};
+void EdgeOrder::reset(size_t capacity, double least, double greatest) {
+  if (edges_.size() < capacity) edges_.resize(capacity);
   root_ = leftmost_ = kNone;
   size_ = 0;
   hasTree_ = takesHints(capacity);
   if (!hasTree_) return;
-  least_ = least.x;
-  columnsPerX_ = double(capacity) / width;
+  least_ = least;
+  columnsPerX_ = double(capacity) / (greatest - least);
   if (!(columnsPerX_ < 1e300)) columnsPerX_ = 0;
   near_.assign(capacity + 2, kNone);
 }

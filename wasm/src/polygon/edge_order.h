@@ -28,8 +28,7 @@ class EdgeOrder {
  public:
   /// Forgets all edges, and keeps the memory for `capacity` of them at once, over points of x from
   /// `least` to `greatest`.
-  void reset(size_t capacity, Point2 least, Point2 greatest);
-  uint32_t walls() const { return walls_; }
+  void reset(size_t capacity, double least, double greatest);
   static size_t bytes(size_t capacity) { return capacity * (sizeof(CrossedEdge) + 8); }
 
   CrossedEdge& operator[](uint32_t e) { return edges_[e]; }
@@ -76,7 +75,6 @@ class EdgeOrder {
   double least_ = 0, columnsPerX_ = 0;
   bool hasTree_ = false;
   size_t size_ = 0;
-  uint32_t walls_ = 0;
   uint32_t root_ = kNone, leftmost_ = kNone;
 };
 

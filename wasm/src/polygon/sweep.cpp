@@ -118,7 +118,7 @@ bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility&
   const size_t count = makeEvents(EdgeOrder::takesHints(chainCount));
   isPlain = count == m;
   if (!work.tick(uint32_t(std::min<size_t>(m, 1u << 24)) * 60)) return false;
-  edges.reset(chainCount, linked.least, linked.greatest);
+  edges.reset(chainCount, linked.least.x, linked.greatest.x);
   seen->order.clear();
   seen->left.resize(m);
   if (!sagsOnly) {
@@ -371,10 +371,8 @@ void State::see(uint32_t v, uint32_t left, uint32_t right) {
 bool State::passMonotone(const Event& event, bool down) {
   const uint32_t v = event.node, e = event.edge;
   const uint32_t left = edges[e].left, right = edges[e].right;
-  const uint32_t wall = edges.walls();
-  const double fromLeft = side(left == kNone ? wall : left, event.at);
-  const double fromRight = side(right == kNone ? wall + 1 : right, event.at);
-  if (!((fromLeft < 0) & (fromRight > 0))) return false;
+  if (left != kNone && !(side(left, event.at) < 0)) return false;
+  if (right != kNone && !(side(right, event.at) > 0)) return false;
   if (!sagsOnly) see(v, down ? kNone : left, down ? right : kNone);
   // Links to what is above the sweep line are as they were.
   const uint32_t upper = event.near;
