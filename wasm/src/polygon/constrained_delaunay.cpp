@@ -18,7 +18,7 @@ constexpr uint32_t kBlockHalves = 3 * 32, kFewHalves = 2 * kBlockHalves;
 // Of triangles of flooding at most so many, for which so many flips in all, and so many a triangle, are
 // enough: where flips become more, merges are less work; measured.
 constexpr uint32_t kMostHalves = 3 * 256;
-constexpr int32_t kFlips = 24, kFlipsPerTriangle = 2;
+constexpr int32_t kFlips = 48, kFlipsPerTriangle = 2;
 // Triangles are near each other in the list if they are in the same 2^4 of them.
 constexpr int kNearBits = 4;
 constexpr int kLevels = 32;
