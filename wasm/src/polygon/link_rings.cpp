@@ -15,9 +15,15 @@ struct Extent {
   Double2 least = {kInfinity, kInfinity}, greatest = {-kInfinity, -kInfinity};
   Double2 smallest = {kInfinity, kInfinity};  // magnitude, but for zeros
   Int2 accepted = {-1, -1};
+  // Of the points as one line, the number of local minima and maxima along x and along y.
+  Int2 extrema = {0, 0}, rises = {0, 0};
+  Double2 last = {kInfinity, kInfinity};
 
   void add(Point2 p) {
     const Double2 xy = {p.x, p.y}, size = magnitudes(xy), infinite = {kInfinity, kInfinity};
+    const Int2 risesNow = last < xy;
+    extrema -= rises ^ risesNow;
+    rises = risesNow, last = xy;
     accepted &= size <= kLargestCoordinate;  // false for NaN
     least = lesser(xy, least), greatest = greater(xy, greatest);
     smallest = lesser(size > 0 ? size : infinite, smallest);
@@ -64,19 +70,6 @@ Outcome firstNotFinite(const PolygonView& polygon) {
     if (isBad(polygon.points, bad.loop - rings)) return bad;
 }
 
-/// Whether x has less than three quarters as many local minima and maxima as y, the points taken as
-/// one line.
-bool hasFewerExtremaAlongX(ArrayView<const Point2> at, size_t n) {
-  Int2 count = {0, 0}, wasUp = {0, 0};
-  for (size_t i = 1; i < n; ++i) {
-    const Double2 from = {at[i - 1].x, at[i - 1].y}, to = {at[i].x, at[i].y};
-    const Int2 isUp = from < to;
-    count -= wasUp ^ isUp;
-    wasUp = isUp;
-  }
-  return 4 * count[0] < 3 * count[1];
-}
-
 /// Copies positions, and points or the frame, to `linked`, scaled, and turned if that may and should
 /// be; false if one is not finite.
 bool copyScaled(const PolygonView& polygon, bool mayTurn, bool complement, LinkedPolygon& linked) {
@@ -91,6 +84,7 @@ bool copyScaled(const PolygonView& polygon, bool mayTurn, bool complement, Linke
     }
   };
   copy(polygon.positions, at.data());
+  linked.turned = mayTurn && 4 * extent.extrema[0] < 3 * extent.extrema[1];
   if (!complement) copy(polygon.points, at.data() + n);
   if (!extent.isAccepted()) return false;
   if (complement) frameAround(polygon, at.data() + n);
@@ -102,7 +96,6 @@ bool copyScaled(const PolygonView& polygon, bool mayTurn, bool complement, Linke
   const Point2 greatest = {extent.greatest[0] * scale, extent.greatest[1] * scale};
   linked.least = least, linked.greatest = greatest;
   linked.smallest = lesser(extent.smallest, swapped(extent.smallest))[0] * scale;
-  linked.turned = mayTurn && hasFewerExtremaAlongX(at, n);
   if (!linked.turned) return true;
   for (Point2& q : at) q = {-q.y, q.x};
   linked.least = {-greatest.y, least.x}, linked.greatest = {-least.y, greatest.x};
