@@ -18,6 +18,8 @@ using namespace sftest;
 
 namespace {
 
+using Indices = sf::Buffer<uint32_t>;
+
 bool isCertain(const sf::Certificate& certificate) {
   sf::Work work;
   const bool result = sf::certify(certificate, work);
@@ -64,16 +66,22 @@ sf::Certificate floodedBothWays(const Polygon& polygon, bool& done) {
   sf::Work work;
   const sf::PolygonView view{polygon.positions, polygon.starts, {}};
   const bool hinted = polygon.vertexCount() % 2 == 0;
-  const auto take = [&](sf::Outcome outcome, std::vector<uint32_t>& triangles,
-                        std::vector<uint32_t>& twins) {
+  const auto take = [&](sf::Outcome outcome, Indices& triangles, Indices& twins,
+                        size_t& paired) {
     if (!outcome.ok() || !flood.run(loops, seen, work, nullptr, hinted)) return false;
     for (const uint32_t v : flood.triangles()) triangles.push_back(loops.vertex[v]);
-    if (hinted) flood.twins().toPlain(uint32_t(triangles.size())), twins = flood.twins().of;
+    if (hinted) {
+      flood.twins().open();
+      twins = flood.twins().of;
+      paired = triangles.size();
+    }
     triangles.insert(triangles.end(), loops.flat.begin(), loops.flat.end());
     return true;
   };
-  done = take(sweep.run(view, true, true, work, loops, seen), c.inside, c.insideTwins) &&
-         take(sweep.runComplement(view, work, loops, seen), c.complement, c.complementTwins);
+  done = take(sweep.run(view, true, true, work, loops, seen), c.inside, c.insideTwins,
+              c.insidePaired) &&
+         take(sweep.runComplement(view, work, loops, seen), c.complement, c.complementTwins,
+              c.complementPaired);
   return c;
 }
 
@@ -115,18 +123,19 @@ TEST_CASE("certificate: a twin that is not one is refused, whatever the triangle
     const Polygon polygon = smallPolygon(random);
     bool done = false;
     sf::Certificate c = floodedBothWays(polygon, done);
-    if (c.insideTwins.empty()) continue;
+    if (c.insidePaired == 0) continue;
     REQUIRE(done);
-    const uint32_t h = random.below(uint32_t(c.insideTwins.size()));
-    const uint32_t g = random.below(uint32_t(c.insideTwins.size()) + 10);
-    if (c.insideTwins[h] == g) continue;
+    const uint32_t h = random.below(uint32_t(c.insidePaired));
+    const uint32_t g = random.below(uint32_t(c.insidePaired) + 10);
+    const uint32_t before = c.insideTwins[h];
+    if (before == g || (before >= c.insidePaired && g >= c.insidePaired)) continue;
     INFO("seed ", seed, " half-edge ", h, " to ", g);
     c.insideTwins[h] = g;
     CHECK(!isCertain(c));
-    if (g < c.insideTwins.size()) c.insideTwins[g] = h;
+    if (g < c.insidePaired) c.insideTwins[g] = h;
     CHECK(!isCertain(c));
     // Without hints the edges themselves are looked at.
-    c.insideTwins.clear();
+    c.insidePaired = 0;
     CHECK(isCertain(c));
     ++changes;
   }
@@ -141,16 +150,18 @@ TEST_CASE("certificate: refused after any change of a triangle") {
     const sf::Certificate c = floodedBothWays(polygon, done);
     REQUIRE(done);
     for (const bool inside : {true, false}) {
-      const std::vector<uint32_t>& before = inside ? c.inside : c.complement;
+      const Indices& before = inside ? c.inside : c.complement;
       const size_t t = random.below(uint32_t(before.size() / 3));
       const uint32_t other = random.below(uint32_t(c.at.size()));
-      const auto refuses = [&](std::vector<uint32_t> triangles) {
+      const auto refuses = [&](Indices triangles) {
         sf::Certificate changed = c;
+        size_t& paired = inside ? changed.insidePaired : changed.complementPaired;
+        paired = std::min(paired, triangles.size());
         (inside ? changed.inside : changed.complement) = std::move(triangles);
         return !isCertain(changed);
       };
       INFO("seed ", seed, " inside ", inside, " triangle ", t, " other ", other);
-      std::vector<uint32_t> triangles = before;
+      Indices triangles = before;
       triangles.erase(triangles.begin() + ptrdiff_t(3 * t),
                       triangles.begin() + ptrdiff_t(3 * t + 3));
       CHECK(refuses(triangles));

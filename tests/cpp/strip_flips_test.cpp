@@ -18,7 +18,7 @@ namespace {
 using Edge = std::array<uint32_t, 2>;
 
 struct Mesh {
-  std::vector<Point2> at;
+  Buffer<Point2> at;
   TriangleMesh triangles;
 };
 

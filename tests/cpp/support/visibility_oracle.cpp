@@ -1,6 +1,7 @@
 #include "support/visibility_oracle.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/predicates.h"
 
@@ -57,6 +58,13 @@ Sight lookAround(const Polygon& polygon, const std::vector<Point>& islands) {
   const uint32_t n = polygon.vertexCount(), m = n + uint32_t(islands.size());
   for (uint32_t v = 0; v < n; ++v) p.at.push_back({polygon.point(v).x, polygon.point(v).y});
   for (const Point q : islands) p.at.push_back({q.x, q.y});
+  p.least = p.greatest = p.at[0], p.smallest = HUGE_VAL;
+  for (const Point2 q : p.at) {
+    p.least = {std::min(p.least.x, q.x), std::min(p.least.y, q.y)};
+    p.greatest = {std::max(p.greatest.x, q.x), std::max(p.greatest.y, q.y)};
+    for (const double x : {std::fabs(q.x), std::fabs(q.y)})
+      if (x > 0) p.smallest = std::min(p.smallest, x);
+  }
   p.next.resize(m), p.prev.resize(m), p.kind.resize(m), p.vertex.resize(m);
   for (uint32_t v = 0; v < m; ++v) p.vertex[v] = p.next[v] = p.prev[v] = v;
   for (uint32_t r = 0; r < polygon.ringCount(); ++r)

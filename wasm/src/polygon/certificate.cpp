@@ -1,6 +1,7 @@
 #include "polygon/certificate.h"
 
 #include "base/charge.h"
+#include "polygon/triangle_mesh.h"
 #include "polygon/turn.h"
 
 namespace sf {
@@ -12,7 +13,7 @@ class OpenEdges {
  public:
   explicit OpenEdges(Charge& charge) : charge_(charge) {}
 
-  void add(uint32_t u, uint32_t v) {
+  __attribute__((noinline)) void add(uint32_t u, uint32_t v) {
     if (slots_.empty()) slots_.assign(kSmallest, kFree);
     const uint64_t opposite = key(v, u);
     for (size_t i = home(opposite);; i = (i + 1) & mask()) {
@@ -73,56 +74,56 @@ class OpenEdges {
   size_t count_ = 0;
 };
 
-/// Whether the boundary of the triangles is that of the rings, or of the frame less the rings.
+/// Whether no triangle is turned over, and the boundary of all is that of the rings, or of the frame less
+/// the rings.
 ///   wanted  [m] the edge that has to be left over at each point; where there are more, the others are
 ///           taken away. kNone, and again kNone if true is returned
-bool boundsRings(const Certificate& c, bool frame, std::vector<uint32_t>& wanted, Work& work) {
-  const std::vector<uint32_t>& triangles = frame ? c.complement : c.inside;
-  const std::vector<uint32_t>& twins = frame ? c.complementTwins : c.insideTwins;
-  const size_t m = c.at.size();
+///   same    of the certificate; a function, so that where all points differ nothing is looked up
+template <class Same>
+bool boundsRings(const Certificate& c, bool frame, Same same, std::vector<uint32_t>& wanted,
+                 Work& work) {
+  const ArrayView<const uint32_t> triangles = frame ? c.complement : c.inside;
+  const uint32_t* const corners = triangles.data();
+  const uint32_t* const twins = (frame ? c.complementTwins : c.insideTwins).data();
+  const uint32_t paired = uint32_t(frame ? c.complementPaired : c.insidePaired);
+  uint32_t* const left = wanted.data();
   Charge charge(work);
   OpenEdges open(charge);
   const auto want = [&](uint32_t u, uint32_t v) {
-    u = c.same[u], v = c.same[v];
+    u = same(u), v = same(v);
     if (u == v) return;  // points at one place have no edge between them
-    if (wanted[u] == kNone)
-      wanted[u] = v;
+    if (left[u] == kNone)
+      left[u] = v;
     else
       open.add(v, u);
   };
-  const auto add = [&](uint32_t u, uint32_t v) {
-    if (u == v) return;
-    if (wanted[u] == v)
-      wanted[u] = kNone;
-    else
-      open.add(u, v);
-  };
   for (size_t i = 0; i < c.rings.size(); i += 2)
     frame ? want(c.rings[i + 1], c.rings[i]) : want(c.rings[i], c.rings[i + 1]);
-  const uint32_t corner = uint32_t(m) - 4;
+  const uint32_t corner = uint32_t(c.at.size()) - 4;
   for (uint32_t k = 0; frame && k < 4; ++k) want(corner + k, corner + (k + 1) % 4);
-  const size_t paired = twins.size() < triangles.size() ? twins.size() : triangles.size();
-  for (uint32_t first = 0; first < triangles.size(); first += 3)
-    for (uint32_t k = 0; k < 3; ++k) {
-      const uint32_t h = first + k, v = triangles[first + (k + 1) % 3];
-      const uint32_t g = h < paired ? twins[h] : kNone;
-      if (g == kNone) {
-        add(c.same[triangles[h]], c.same[v]);
-        continue;
-      }
-      // That g ends where h begins is seen from g.
-      if (g >= paired || twins[g] != h || triangles[g] != v) return false;
-    }
-  for (const uint32_t v : wanted)
-    if (v != kNone) return false;
-  return open.isZero() && work.going();
-}
 
-bool noneTurnedOver(const Certificate& c, const std::vector<uint32_t>& triangles) {
-  for (size_t i = 0; i < triangles.size(); i += 3)
-    if (!(turn(c.at[triangles[i]], c.at[triangles[i + 1]], c.at[triangles[i + 2]]) >= 0))
-      return false;
-  return true;
+  bool agree = true;
+  // The edge from u to v, opposite corner h.
+  const auto take = [&](uint32_t h, uint32_t u, uint32_t v) {
+    const uint32_t g = h < paired ? twins[h] : kNone;
+    if (g < paired) {
+      // That g ends where h begins is seen from g.
+      agree &= (twins[g] == h) & (corners[nextInTriangle(g)] == v);
+      return;
+    }
+    u = same(u), v = same(v);
+    if (left[u] == v)
+      left[u] = kNone;
+    else if (u != v)
+      open.add(u, v);
+  };
+  for (uint32_t t = 0; t < triangles.size(); t += 3) {
+    const uint32_t a = corners[t], b = corners[t + 1], d = corners[t + 2];
+    agree &= turn(c.at[a], c.at[b], c.at[d]) >= 0;
+    take(t, b, d), take(t + 1, d, a), take(t + 2, a, b);
+  }
+  for (const uint32_t v : wanted) agree &= v == kNone;
+  return agree && open.isZero() && work.going();
 }
 
 }  // namespace
@@ -131,14 +132,18 @@ bool certify(const Certificate& c, Work& work) {
   for (size_t v = 0; v < c.at.size(); ++v) {
     const Point2 p = c.at[v];
     if (!(std::fabs(p.x) <= 1e151 && std::fabs(p.y) <= 1e151)) return false;
+    if (c.same.empty()) continue;
     if (!(p == c.at[c.same[v]]) || c.same[c.same[v]] != c.same[v]) return false;
   }
-  if (!noneTurnedOver(c, c.inside) || !noneTurnedOver(c, c.complement)) return false;
   if (!work.tick(uint32_t(c.at.size() < (1u << 24) ? c.at.size() * 60 : 1u << 30))) return false;
   Charge charge(work);
   if (!charge.add(sizeof(uint32_t) * uint64_t(c.at.size()))) return false;
   std::vector<uint32_t> wanted(c.at.size(), kNone);
-  return boundsRings(c, false, wanted, work) && boundsRings(c, true, wanted, work);
+  const auto bound = [&](auto same) {
+    return boundsRings(c, false, same, wanted, work) && boundsRings(c, true, same, wanted, work);
+  };
+  if (c.same.empty()) return bound([](uint32_t v) { return v; });
+  return bound([&c](uint32_t v) { return c.same[v]; });
 }
 
 }  // namespace sf

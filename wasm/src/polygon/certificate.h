@@ -5,6 +5,7 @@
 #pragma once
 #include <vector>
 
+#include "base/buffer.h"
 #include "base/work.h"
 #include "polygon/polygon.h"
 
@@ -12,15 +13,17 @@ namespace sf {
 
 /// What certify looks at.
 struct Certificate {
-  std::vector<Point2> at;        // [m] points: the input's, and last the four corners of a frame,
+  Buffer<Point2> at;             // [m] points: the input's, and last the four corners of a frame,
                                  // counter-clockwise
-  std::vector<uint32_t> same;    // [m] for each point one at the same place, itself if none is
-  std::vector<uint32_t> rings;   // [2e] edges u -> v of the rings, the polygon to the left
-  std::vector<uint32_t> inside;  // [3t] triangles of the polygon
-  std::vector<uint32_t> complement;  // [3s] triangles of the frame without the polygon
-  // Which half-edges, as in triangle_mesh.h, are opposites of each other, for the first triangles; kNone
-  // where that is not known. What is said has to be right.
-  std::vector<uint32_t> insideTwins, complementTwins;  // [up to 3t], [up to 3s]
+  std::vector<uint32_t> same;    // [m] for each point one at the same place, itself if none is; empty
+                                 // where no two are at one place
+  Buffer<uint32_t> rings;        // [2e] edges u -> v of the rings, the polygon to the left
+  Buffer<uint32_t> inside;       // [3t] triangles of the polygon
+  Buffer<uint32_t> complement;   // [3s] triangles of the frame without the polygon
+  // Which half-edges, named as in ClosableTwins, are opposites of each other; where an element is missing,
+  // or is none of the first t or s triangles', that is not known. What is said has to be right.
+  size_t insidePaired = 0, complementPaired = 0;       // how many elements count, up to 3t or 3s
+  Buffer<uint32_t> insideTwins, complementTwins;  // at least so many
 };
 
 /// Whether the triangles prove by themselves that the rings wind 0 or 1 times around every point off

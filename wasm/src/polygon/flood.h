@@ -37,6 +37,12 @@ class Flood {
   /// any other neighbour, comes earlier in the list, but for the neighbours of one corner that made them
   /// all, and across bridges. Theirs to change, whoever ran it.
   ArrayView<uint32_t> triangles() { return {corners_.data(), size_t(out_ - corners_.data())}; }
+  /// Hands the triangles over in exchange for what `to` holds, whose memory the next run will use.
+  void handOver(Buffer<uint32_t>& to) {
+    corners_.resize(nextHalf());
+    corners_.swap(to);
+    out_ = corners_.data();
+  }
   /// Their twins, if they were wanted, bridges being closed edges.
   ClosableTwins& twins() { return twins_; }
 
@@ -91,7 +97,7 @@ class Flood {
   size_t nextBottom_ = 0, spilled_ = 0;
   Node* spilledTo_ = nullptr;
   Chain chain_{};
-  std::vector<uint32_t> corners_;  // only grows
+  Buffer<uint32_t> corners_;
   uint32_t* out_ = nullptr;
   std::vector<FloodStep>* trace_ = nullptr;
   ClosableTwins twins_;

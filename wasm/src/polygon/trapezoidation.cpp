@@ -181,11 +181,9 @@ bool TrapezoidTriangulator::improve(const LinkedPolygon& linked, const Visibilit
   mesh_.edgeFrom.clear();
   if (!findTwins(mesh_.corners, nodes, work, mesh_.twins)) return false;
   if (delaunay) {
-    twins_.of.swap(mesh_.twins);
-    twins_.fromPlain();
+    twins_.fromPlain(mesh_.twins);
     if (!delaunay_.run(linked, work, mesh_.corners, twins_)) return false;
-    twins_.toPlain(uint32_t(mesh_.corners.size()));
-    twins_.of.swap(mesh_.twins);
+    twins_.toPlain(mesh_.twins);
   }
   return work.going() && insertIslands(linked, seen, work);
 }

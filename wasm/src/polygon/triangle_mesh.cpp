@@ -67,23 +67,26 @@ void ClosableTwins::close(uint32_t h) {
   pair(h, c), pair(g, c + 1);
 }
 
-void ClosableTwins::fromPlain() {
-  const uint32_t halves = uint32_t(of.size());
+void ClosableTwins::open() {
+  for (uint32_t c = outside + 2; c < end; c += 2) pair(of[c], of[c + 1]);
+  end = outside + 2;
+}
+
+void ClosableTwins::fromPlain(ArrayView<const uint32_t> plain) {
+  const uint32_t halves = uint32_t(plain.size());
   reset(halves, 0);
-  const auto renamed = [&](uint32_t g) { return g == kNone ? outside : prevInTriangle(g); };
-  for (uint32_t t = 0; t < halves; t += 3) {
-    const uint32_t first = of[t];
-    of[t] = renamed(of[t + 1]), of[t + 1] = renamed(of[t + 2]), of[t + 2] = renamed(first);
+  // What is opposite corner k begins at the next corner.
+  for (uint32_t h = 0; h < halves; ++h) {
+    const uint32_t g = plain[nextInTriangle(h)];
+    of[h] = g == kNone ? outside : prevInTriangle(g);
   }
 }
 
-void ClosableTwins::toPlain(uint32_t halves) {
-  for (uint32_t c = outside + 2; c < end; c += 2) pair(of[c], of[c + 1]);
-  of.resize(halves);
-  const auto renamed = [&](uint32_t g) { return g == outside ? kNone : nextInTriangle(g); };
-  for (uint32_t t = 0; t < halves; t += 3) {
-    const uint32_t last = of[t + 2];
-    of[t + 2] = renamed(of[t + 1]), of[t + 1] = renamed(of[t]), of[t] = renamed(last);
+void ClosableTwins::toPlain(ArrayView<uint32_t> plain) {
+  open();
+  for (uint32_t h = 0; h < plain.size(); ++h) {
+    const uint32_t g = of[prevInTriangle(h)];
+    plain[h] = g == outside ? kNone : nextInTriangle(g);
   }
 }
 

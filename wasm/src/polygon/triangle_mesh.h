@@ -33,7 +33,7 @@ bool findTwins(ArrayView<const uint32_t> corners, uint32_t vertexCount, Work& wo
 /// of all edges of the loops; after it come those of closed edges, two by two. A closed edge of half-edges
 /// h and g with far sides c and c + 1 has of[h] = c, of[c] = h, of[g] = c + 1, of[c + 1] = g.
 struct ClosableTwins {
-  std::vector<uint32_t> of;  // [at least end]; of[outside] means nothing
+  Buffer<uint32_t> of;   // [at least end]; of[outside] means nothing
   uint32_t outside = 0;      // even, not below the number of half-edges
   uint32_t end = 0;          // past the far sides of closed edges; both from outside + 2 on
 
@@ -47,9 +47,11 @@ struct ClosableTwins {
   void close(uint32_t h);
   /// The far sides of one more closed edge, for which there is room: the first, even one.
   uint32_t addClosed() { return end += 2, end - 2; }
-  /// From findTwins' form, and to it: `of` has `halves` elements then, all edges being open.
-  void fromPlain();
-  void toPlain(uint32_t halves);
+  /// Opens all closed edges.
+  void open();
+  /// From findTwins' form, and to it, all edges being open.
+  void fromPlain(ArrayView<const uint32_t> plain);
+  void toPlain(ArrayView<uint32_t> plain);
 };
 
 /// Triangles of positive area.

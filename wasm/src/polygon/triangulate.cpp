@@ -1,7 +1,5 @@
 #include "polygon/triangulate.h"
 
-#include <numeric>
-
 #include "base/charge.h"
 #include "polygon/certificate.h"
 #include "polygon/complement.h"
@@ -41,7 +39,8 @@ struct PolygonTriangulator::State {
   Certificate certificate;
   std::vector<uint32_t> starts;
   std::vector<uint32_t> corners;  // by trapezoids
-  ClosableTwins twins;            // of these
+  std::vector<uint32_t> plainTwins;  // of these
+  ClosableTwins twins;
   // The triangles of the current polygon, but for flat ones, and their twins where these are known.
   ArrayView<uint32_t> found;
   ClosableTwins* foundTwins = nullptr;
@@ -70,8 +69,8 @@ bool PolygonTriangulator::State::triangulateLoops(const PolygonOptions& options,
   if (!trapezoids.triangulate(loops, seen, true, forStrips, work, corners)) return false;
   found = corners, foundTwins = nullptr;
   if (!options.delaunay) return true;
-  if (!findTwins(corners, uint32_t(loops.at.size()), work, twins.of)) return false;
-  twins.fromPlain();
+  if (!findTwins(corners, uint32_t(loops.at.size()), work, plainTwins)) return false;
+  twins.fromPlain(plainTwins);
   foundTwins = &twins;
   return delaunay.run(loops, work, found, twins);
 }
@@ -121,43 +120,46 @@ bool PolygonTriangulator::State::isCertain(const PolygonView& polygon, bool sags
   const uint32_t p = uint32_t(polygon.points.size() / 2);
   if (!charge.add((uint64_t(n) + p) * 120)) return false;
   Certificate& c = certificate;
-  c.rings.clear();
   c.at.resize(size_t(n) + p + 4);
   Point2* at = c.at.data();
   for (const ArrayView<const double> xy : {polygon.positions, polygon.points})
     for (size_t i = 0; i < xy.size(); i += 2) *at++ = {xy[i], xy[i + 1]};
   frameAround(polygon, c.at.data() + n + p);
-  c.inside.assign(found.begin(), found.end());
+  if (sagsOnly)
+    flood.handOver(c.inside);  // it is about to begin anew
+  else
+    c.inside.assign(found.begin(), found.end());
   c.inside.insert(c.inside.end(), loops.flat.begin(), loops.flat.end());
-  found = {c.inside.data(), found.size()};  // flooding is about to begin anew
-  const auto takeTwins = [](ClosableTwins& twins, size_t halves, std::vector<uint32_t>& plain) {
-    twins.toPlain(uint32_t(halves));
-    plain.swap(twins.of);
+  found = {c.inside.data(), found.size()};
+  const auto takeTwins = [](ClosableTwins& twins, Buffer<uint32_t>& to) {
+    twins.open();
+    to.swap(twins.of);
   };
-  c.insideTwins.clear();
-  if (foundTwins) takeTwins(*foundTwins, found.size(), c.insideTwins);
+  c.insidePaired = foundTwins ? found.size() : 0;
+  if (foundTwins) takeTwins(*foundTwins, c.insideTwins);
   const bool plain = sweep.isPlain();
-  if (plain) {
-    c.same.resize(size_t(n) + p);
-    std::iota(c.same.begin(), c.same.end(), 0);
-  } else {
+  c.same.clear();
+  if (!plain) {
     sweep.findEqual(c.same);
+    for (uint32_t k = 0; k < 4; ++k) c.same.push_back(n + p + k);
   }
-  for (uint32_t k = 0; k < 4; ++k) c.same.push_back(n + p + k);
-  for (uint32_t r = 0; r + 1 < polygon.starts.size(); ++r)
-    for (uint32_t v = polygon.starts[r], last = polygon.starts[r + 1] - 1; v <= last; ++v) {
-      const uint32_t w = v == last ? polygon.starts[r] : v + 1;
-      const bool turned = sweep.reversed()[r];
-      c.rings.push_back(turned ? w : v), c.rings.push_back(turned ? v : w);
-    }
+  c.rings.resize(2 * size_t(n));
+  for (uint32_t r = 0; r + 1 < polygon.starts.size(); ++r) {
+    const uint32_t first = polygon.starts[r], last = polygon.starts[r + 1] - 1;
+    const uint32_t turned = sweep.reversed()[r];
+    for (uint32_t v = first; v <= last; ++v)
+      c.rings[2 * v + turned] = v, c.rings[2 * v + 1 - turned] = v + 1;
+    c.rings[2 * last + 1 - turned] = first;
+  }
   if (plain && sagsOnly) {
     takeComplement(loops, seen, outerLoops, outside);
   } else if (!sweep.runComplement(polygon, work, outerLoops, outside).ok()) {
     return false;
   }
   if (!flood.run(outerLoops, outside, work, nullptr, true)) return false;
-  c.complement.assign(flood.triangles().begin(), flood.triangles().end());
-  takeTwins(flood.twins(), c.complement.size(), c.complementTwins);
+  flood.handOver(c.complement);
+  c.complementPaired = c.complement.size();
+  takeTwins(flood.twins(), c.complementTwins);
   if (!plain || !sagsOnly) {
     c.complement.insert(c.complement.end(), outerLoops.flat.begin(), outerLoops.flat.end());
     // There, the frame's corners follow the vertices.
