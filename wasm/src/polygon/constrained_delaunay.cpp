@@ -156,10 +156,12 @@ bool ConstrainedDelaunay::flipBlock(uint32_t first, uint32_t end, Work& work) {
 void ConstrainedDelaunay::orderEdges() {
   uint32_t starts[kLevels + 1] = {};
   const uint32_t begin = all_->outside + 2, end = all_->end;
+  order_.resize((end - begin) / 2);
+  if (order_.size() == 1) order_[0] = begin;
+  if (order_.size() == 1) return;
   const auto level = [&](uint32_t c) { return levelOf(twins_[c] / 3, twins_[c + 1] / 3); };
   for (uint32_t c = begin; c < end; c += 2) ++starts[level(c) + 1];
   for (int l = 0; l < kLevels; ++l) starts[l + 1] += starts[l];
-  order_.resize((end - begin) / 2);
   for (uint32_t c = begin; c < end; c += 2) order_[starts[level(c)]++] = c;
 }
 
@@ -227,32 +229,32 @@ uint32_t ConstrainedDelaunay::create(uint32_t a, uint32_t b, uint32_t c) {
   return h;
 }
 
-/// Takes away the triangles on the left border's first edge, as long as `right` is in their circles.
-void ConstrainedDelaunay::takeLeft(uint32_t left, uint32_t right) {
-  for (;;) {
-    Border& border = left_.last();
-    const uint32_t h = border.outer;
-    if (!isOpen(h)) return;
-    const uint32_t after = nextInTriangle(h), before = prevInTriangle(h), apex = corners_[h];
-    if (!inCircle(metric_[left], metric_[border.vertex], metric_[apex], metric_[right])) return;
+/// Takes away the triangles on the first edge of the left border, as long as `right` is in their circles.
+inline void ConstrainedDelaunay::takeLeft(uint32_t left, uint32_t right) {
+  const Point2 a = metric_[left], d = metric_[right];
+  Border first = *--left_.top;
+  for (uint32_t h = first.outer; isOpen(h); h = first.outer) {
+    const uint32_t apex = corners_[h];
+    if (!inCircle(a, metric_[first.vertex], metric_[apex], d)) break;
     free_.push(h / 3);
-    border.outer = twins_[after];
-    left_.push({apex, twins_[before]});
+    left_.push({first.vertex, twins_[nextInTriangle(h)]});
+    first = {apex, twins_[prevInTriangle(h)]};
   }
+  left_.push(first);
 }
 
 /// The same for the right border.
-void ConstrainedDelaunay::takeRight(uint32_t left, uint32_t right) {
-  for (;;) {
-    Border& border = right_.last();
-    const uint32_t h = border.outer;
-    if (!isOpen(h)) return;
-    const uint32_t after = nextInTriangle(h), before = prevInTriangle(h), apex = corners_[h];
-    if (!inCircle(metric_[border.vertex], metric_[right], metric_[apex], metric_[left])) return;
+inline void ConstrainedDelaunay::takeRight(uint32_t left, uint32_t right) {
+  const Point2 b = metric_[right], d = metric_[left];
+  Border first = *--right_.top;
+  for (uint32_t h = first.outer; isOpen(h); h = first.outer) {
+    const uint32_t apex = corners_[h];
+    if (!inCircle(metric_[first.vertex], b, metric_[apex], d)) break;
     free_.push(h / 3);
-    border.outer = twins_[before];
-    right_.push({apex, twins_[after]});
+    right_.push({first.vertex, twins_[prevInTriangle(h)]});
+    first = {apex, twins_[nextInTriangle(h)]};
   }
+  right_.push(first);
 }
 
 /// Merges what lies to the left of edge h, which is illegal, and to the right of it. Returns how many
