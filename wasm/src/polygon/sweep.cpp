@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/charge.h"
 #include "polygon/link_rings.h"
@@ -211,32 +212,30 @@ size_t State::makeEvents(bool hints) {
 /// which takes no branches.
 void State::rankEvents(bool hints, double toKey) {
   using Int4 = int32_t __attribute__((vector_size(16)));
+  constexpr size_t kAtOnce = 16;
   const size_t count = loops->at.size();
-  alignas(16) int32_t keys[kFewToRank + 8];
+  alignas(16) int32_t keys[kFewToRank + kAtOnce];
   for (size_t v = 0; v < count; ++v) {
     // The last bits of a number beyond 2^52 are an integer.
     const double height = (loops->at[v].y - loops->least.y) * toKey + 0x1p52;
     uint64_t bits;
-    __builtin_memcpy(&bits, &height, 8);
+    std::memcpy(&bits, &height, sizeof bits);
     const int32_t key = int32_t(bits) << 7 | int32_t(v);
     keys[v] = loops->kind[v] == VertexKind::Unused ? INT32_MAX : key;
   }
-  keys[count] = INT32_MAX;
+  std::fill(keys + count, keys + count + kAtOnce, INT32_MAX);
   events.resize(count);
-  for (size_t i = 0; i < count; i += 8) {
-    Int4 a, b;
-    __builtin_memcpy(&a, keys + i, 16), __builtin_memcpy(&b, keys + i + 4, 16);
-    Int4 rankA = {0, 0, 0, 0}, rankB = {0, 0, 0, 0};
+  for (size_t i = 0; i < count; i += kAtOnce) {
+    Int4 own[4], ranks[4] = {};
+    std::memcpy(own, keys + i, sizeof own);
     for (size_t j = 0; j < count; j += 2) {
       const Int4 key = {keys[j], keys[j], keys[j], keys[j]};
-      const Int4 key1 = {keys[j+1], keys[j+1], keys[j+1], keys[j+1]};
-      rankA -= key < a, rankB -= key < b;
-      rankA -= key1 < a, rankB -= key1 < b;
+      const Int4 next = {keys[j + 1], keys[j + 1], keys[j + 1], keys[j + 1]};
+      for (int k = 0; k < 4; ++k) ranks[k] -= key < own[k];
+      for (int k = 0; k < 4; ++k) ranks[k] -= next < own[k];
     }
-    int32_t ranks[8];
-    __builtin_memcpy(ranks, &rankA, 16), __builtin_memcpy(ranks + 4, &rankB, 16);
-    for (size_t k = 0; k < 8 && i + k < count; ++k)
-      events[size_t(ranks[k])] = eventOf(uint32_t(i + k), hints);
+    for (size_t k = 0; k < kAtOnce && i + k < count; ++k)
+      events[size_t(ranks[k / 4][k % 4])] = eventOf(uint32_t(i + k), hints);
   }
 }
 
@@ -374,10 +373,14 @@ bool State::passMonotone(const Event& event, bool down) {
   if (left != kNone && !(side(left, event.at) < 0)) return false;
   if (right != kNone && !(side(right, event.at) > 0)) return false;
   if (!sagsOnly) see(v, down ? kNone : left, down ? right : kNone);
-  // Links to what is above the sweep line are as they were.
+  // Links to what is above the sweep line are as they were, and so is the direction.
   const uint32_t upper = event.near;
   SF_ASSERT(upper == (down ? loops->prev : loops->next)[v]);
-  set(e, v, upper, down ? upper : v, down);
+  CrossedEdge& edge = edges[e];
+  edge.lo = event.at, edge.hi = loops->at[upper];
+  edge.lower = v, edge.upper = upper;
+  edge.input = down ? upper : v;
+  edges.remember(e, edge.lo.x);
   return true;
 }
 
