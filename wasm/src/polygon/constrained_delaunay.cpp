@@ -38,7 +38,9 @@ bool ConstrainedDelaunay::begin(const LinkedPolygon& loops, ArrayView<uint32_t> 
   count_ = uint32_t(triangles.size());
   if (!charge.add(kPerCorner * count_ + sizeof(Point2) * uint64_t(loops.at.size()))) return false;
   at_ = loops.at.data();
-  metric_ = metricPoints(loops, scaled_, isExact_).data();
+  int exponent;
+  metric_ = metricPoints(loops, scaled_, exponent, isExact_).data();
+  error_ = errorOfCircles(scaledDown(loops.least, exponent), scaledDown(loops.greatest, exponent));
   corners_ = triangles.data(), twins_ = twins.of.data();
   all_ = &twins;
   // Flips stay within a block, unless they take the place of merges.
@@ -112,7 +114,7 @@ uint32_t ConstrainedDelaunay::insert(uint32_t t) {
   // Whether the corner that half-edge g, from b to a, sees lies inside the circle through a, b, c. What
   // comes later in the list is closed for now.
   const auto isIllegal = [&](Point2 a, Point2 b, uint32_t g) {
-    return g < end && inCircle(a, b, c, metric_[corners_[g]]);
+    return g < end && inCircle(a, b, c, metric_[corners_[g]], error_);
   };
   uint32_t* const waiting = stack_.data();
   uint32_t count = 0, flips = 0;
@@ -191,7 +193,7 @@ inline __attribute__((always_inline)) bool ConstrainedDelaunay::isIllegal(uint32
   const uint32_t g = twins_[h];
   const uint32_t a = corners_[nextInTriangle(h)], b = corners_[prevInTriangle(h)];
   const uint32_t c = corners_[h], d = corners_[g];
-  if (!inCircle(metric_[a], metric_[b], metric_[c], metric_[d])) return false;
+  if (!inCircle(metric_[a], metric_[b], metric_[c], metric_[d], error_)) return false;
   // Implied where circles are exact; elsewhere what they say may be all wrong.
   return isExact_ || (turn(at_[a], at_[d], at_[c]) > 0 && turn(at_[b], at_[c], at_[d]) > 0);
 }
@@ -235,7 +237,7 @@ inline void ConstrainedDelaunay::takeLeft(uint32_t left, uint32_t right) {
   Border first = *--left_.top;
   for (uint32_t h = first.outer; isOpen(h); h = first.outer) {
     const uint32_t apex = corners_[h];
-    if (!inCircle(a, metric_[first.vertex], metric_[apex], d)) break;
+    if (!inCircle(a, metric_[first.vertex], metric_[apex], d, error_)) break;
     free_.push(h / 3);
     left_.push({first.vertex, twins_[nextInTriangle(h)]});
     first = {apex, twins_[prevInTriangle(h)]};
@@ -249,7 +251,7 @@ inline void ConstrainedDelaunay::takeRight(uint32_t left, uint32_t right) {
   Border first = *--right_.top;
   for (uint32_t h = first.outer; isOpen(h); h = first.outer) {
     const uint32_t apex = corners_[h];
-    if (!inCircle(metric_[first.vertex], b, metric_[apex], d)) break;
+    if (!inCircle(metric_[first.vertex], b, metric_[apex], d, error_)) break;
     free_.push(h / 3);
     right_.push({first.vertex, twins_[prevInTriangle(h)]});
     first = {apex, twins_[nextInTriangle(h)]};
@@ -289,7 +291,7 @@ uint32_t ConstrainedDelaunay::merge(uint32_t h) {
     const bool goesRight =
         !seesLeft || endsLeft ||
         (seesRight && !endsRight &&
-         inCircle(metric_[left], metric_[right], metric_[l.vertex], metric_[r.vertex]));
+         inCircle(metric_[left], metric_[right], metric_[l.vertex], metric_[r.vertex], error_));
     t = create(left, right, goesRight ? r.vertex : l.vertex);
     pair(t, base);
     if (endsLeft && endsRight) {

@@ -85,6 +85,7 @@ class ConstrainedDelaunay {
   uint32_t count_ = 0;  // of half-edges
   const Point2 *at_ = nullptr, *metric_ = nullptr;
   bool isExact_ = true;  // the circles of `metric` are those of `at`
+  double error_ = 0;     // of these circles
   std::vector<Point2> scaled_;
   std::vector<uint32_t> order_;  // closed edges, by the first of their far sides
   Stack<Border> left_, right_;

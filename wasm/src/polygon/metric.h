@@ -19,9 +19,9 @@ inline Point2 scaledDown(Point2 p, int exponent) {
 }
 
 /// The points of the nodes themselves where they are in range, or else `scaled`, with the largest magnitude
-/// in [1/2, 1). `isExact` tells whether nothing was lost: if not, what the predicates say may be wrong. O(1),
+/// in [1/2, 1): times 2^-exponent, which is 0 for those themselves. `isExact` tells whether nothing was lost: if not, what the predicates say may be wrong. O(1),
 /// or O(n) where they have to be scaled.
 ArrayView<const Point2> metricPoints(const LinkedPolygon& loops, std::vector<Point2>& scaled,
-                                     bool& isExact);
+                                     int& exponent, bool& isExact);
 
 }  // namespace sf

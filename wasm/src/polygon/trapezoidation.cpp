@@ -175,8 +175,9 @@ bool TrapezoidTriangulator::improve(const LinkedPolygon& linked, const Visibilit
   Charge charge(work);
   if (!charge.add(8 * uint64_t(mesh_.corners.size()))) return false;
   mesh_.at = linked.at;
+  int exponent;
   bool isExact;
-  mesh_.metric = metricPoints(linked, scaled_, isExact);
+  mesh_.metric = metricPoints(linked, scaled_, exponent, isExact);
   mesh_.unused.clear();
   mesh_.edgeFrom.clear();
   if (!findTwins(mesh_.corners, nodes, work, mesh_.twins)) return false;
