@@ -21,6 +21,7 @@ bool Flood::run(const LinkedPolygon& loops, const Visibility& seen, Work& work,
   out_ = corners_.data();
   if (paired) twins_.reset(uint32_t(3 * most), bridges);
   paired_ = paired, trace_ = trace;
+  error_ = errorOfTurns(loops.least, loops.greatest);
   return begin(loops, seen, work) && floodGorges(work);
 }
 
@@ -134,7 +135,7 @@ bool Flood::raiseRight(Node* v) {
 void Flood::wedgeAhead(Node* v, Node* c, Node* end) {
   while (c != end) {
     Node* const d = c->next;
-    if (!(turn(v->at, c->at, d->at) > 0)) break;
+    if (!(turn(v->at, c->at, d->at, error_) > 0)) break;
     if (paired_) {
       const uint32_t h = nextHalf();
       twins_.pair(h, c->below), twins_.pair(h + 2, v->below);
@@ -150,7 +151,7 @@ void Flood::wedgeAhead(Node* v, Node* c, Node* end) {
 void Flood::wedgeBehind(Node* v, Node* c, Node* end) {
   while (c != end) {
     Node* const d = c->prev;
-    if (!(turn(d->at, c->at, v->at) > 0)) break;
+    if (!(turn(d->at, c->at, v->at, error_) > 0)) break;
     if (paired_) {
       const uint32_t h = nextHalf();
       twins_.pair(h, d->below), twins_.pair(h + 1, c->below);

@@ -102,6 +102,7 @@ class Flood {
   std::vector<FloodStep>* trace_ = nullptr;
   ClosableTwins twins_;
   bool paired_ = false;
+  double error_ = 0;  // of turns
 };
 
 }  // namespace sf

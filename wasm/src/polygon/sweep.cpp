@@ -112,6 +112,7 @@ bool State::begin(const PolygonView& polygon, LinkedPolygon& linked, Visibility&
                   Work& work) {
   view = &polygon, loops = &linked, seen = &visibility;
   outcome = misplaced = {};
+  error = errorOfTurns(linked.least, linked.greatest);
   const size_t m = linked.at.size();
   inputNodes = m;
   // Edges come into the order in pairs, at local minima alone.

@@ -53,6 +53,7 @@ struct SweepState {
   LinkedPolygon* loops = nullptr;
   Visibility* seen = nullptr;
   bool sagsOnly = false;
+  double error = 0;       // of turns
   size_t inputNodes = 0;  // those that are vertices of the input
   bool isPlain = true;    // no two vertices at one place so far, and none on an edge
   Outcome outcome;        // the first crossing
@@ -91,7 +92,7 @@ struct SweepState {
   bool reportDisorder(Point2 at);
 
   /// Where p is: positive to the left of edge e, negative to the right, 0 on it.
-  double side(uint32_t e, Point2 p) const { return turn(edges[e].lo, edges[e].hi, p); }
+  double side(uint32_t e, Point2 p) const { return turn(edges[e].lo, edges[e].hi, p, error); }
   void set(uint32_t e, uint32_t lower, uint32_t upper, uint32_t input, bool down);
   bool isInside(uint32_t left) const { return left != kNone && edges[left].down; }
   uint32_t lowerNode(uint32_t e) const { return e == kNone ? kNone : edges[e].lower; }
