@@ -65,10 +65,10 @@ sf::Certificate floodedBothWays(const Polygon& polygon, bool& done) {
   sf::Visibility seen;
   sf::Work work;
   const sf::PolygonView view{polygon.positions, polygon.starts, {}};
+  sf::Charge charge(work);
   const bool hinted = polygon.vertexCount() % 2 == 0;
-  const auto take = [&](sf::Outcome outcome, Indices& triangles, Indices& twins,
-                        size_t& paired) {
-    if (!outcome.ok() || !flood.run(loops, seen, work, nullptr, hinted)) return false;
+  const auto take = [&](sf::Outcome outcome, Indices& triangles, Indices& twins, size_t& paired) {
+    if (!outcome.ok() || !flood.run(loops, seen, work, charge, nullptr, hinted)) return false;
     for (const uint32_t v : flood.triangles()) triangles.push_back(loops.vertex[v]);
     if (hinted) {
       flood.twins().open();

@@ -6,8 +6,10 @@
 #include <map>
 
 #include "base/predicates.h"
+#include "polygon/complement.h"
 #include "polygon/constrained_delaunay.h"
 #include "polygon/triangulate.h"
+#include "polygon/turn.h"
 #include "support/polygon_generators.h"
 #include "support/polygon_oracle.h"
 
@@ -58,6 +60,59 @@ int illegalEdges(const Polygon& polygon, const std::vector<uint32_t>& triangles)
   return illegal;
 }
 
+/// Checks triangles and twins of a Flood after ConstrainedDelaunay::runFlooded, node by node: where rings
+/// touch, several nodes are at one place. Returns how many edges were looked at.
+int checkFlooded(const sf::LinkedPolygon& loops, const sf::Visibility& seen) {
+  sf::Work work;
+  sf::Charge charge(work);
+  sf::Flood flood;
+  sf::ConstrainedDelaunay delaunay;
+  REQUIRE(flood.run(loops, seen, work, charge, nullptr, true));
+  const std::vector<uint32_t> before(flood.triangles().begin(), flood.triangles().end());
+  REQUIRE(delaunay.runFlooded(loops, work, flood));
+  const sf::ArrayView<uint32_t> corners = flood.triangles();
+  const sf::ClosableTwins& twins = flood.twins();
+  CHECK(corners.size() == before.size());
+  if (corners.size() < 6) return 0;
+  CHECK(twins.end == twins.outside + 2);
+  int looked = 0, wrong = 0;
+  for (uint32_t h = 0; h < corners.size(); ++h) {
+    const uint32_t g = twins.of[h];
+    const auto at = [&](uint32_t corner) { return loops.at[corners[corner]]; };
+    const sf::Point2 a = at(sf::nextInTriangle(h)), b = at(sf::prevInTriangle(h)), c = at(h);
+    wrong += !(sf::turn(a, b, c) > 0);
+    if (g == twins.outside) continue;
+    ++looked;
+    if (g >= corners.size() || twins.of[g] != h ||
+        corners[sf::nextInTriangle(g)] != corners[sf::prevInTriangle(h)]) {
+      ++wrong;
+      continue;
+    }
+    const sf::Point2 d = at(g);
+    wrong += sf::incircle(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y) > 0;
+  }
+  CHECK(wrong == 0);
+  return looked;
+}
+
+/// The same for a polygon, for what is around it, and for that as a sweep of its own finds it.
+int checkBothSides(const Polygon& polygon, const std::vector<double>& points, bool& turned) {
+  sf::PlaneSweep sweep;
+  sf::LinkedPolygon loops, around;
+  sf::Visibility seen, seenAround;
+  sf::Work work;
+  const sf::PolygonView view{polygon.positions, polygon.starts, points};
+  REQUIRE(sweep.run(view, true, true, work, loops, seen).ok());
+  turned = loops.turned;
+  int looked = checkFlooded(loops, seen);
+  if (sweep.isPlain()) {
+    sf::takeComplement(loops, seen, around, seenAround);
+    looked += checkFlooded(around, seenAround);
+  }
+  REQUIRE(sweep.runComplement(view, work, around, seenAround).ok());
+  return looked + checkFlooded(around, seenAround);
+}
+
 std::vector<std::vector<uint32_t>> sorted(const std::vector<uint32_t>& triangles) {
   std::vector<std::vector<uint32_t>> result;
   for (size_t i = 0; i < triangles.size(); i += 3) {
@@ -94,6 +149,43 @@ TEST_CASE("constrained delaunay: rings that touch are covered exactly too") {
     INFO("seed ", seed, " ", describe(polygon));
     CHECK(faultOfTriangulation(polygon, triangulate(polygon, true).triangles) == "");
   }
+}
+
+TEST_CASE(
+    "constrained delaunay: legal node by node, where rings touch, turned, and around polygons") {
+  int looked = 0, quarters = 0;
+  for (uint32_t seed = 1; seed <= 500; ++seed) {
+    Random random(seed);
+    Polygon polygon;
+    std::vector<double> points;
+    switch (seed % 5) {
+      case 0:
+        polygon = rewritten(smallPolygon(random), random);
+        break;
+      case 1:
+        polygon = latticeRegion(3 + seed % 9, 4 + seed % 90, seed % 2 == 0, true, random);
+        break;
+      case 2:
+        polygon = polygonOf({combRing(5 + random.below(60), random)});
+        break;
+      case 3:
+        polygon = starsInHoles(2, 2, 5 + random.below(20), random);
+        break;
+      default:
+        polygon = polygonOf({regularRing(3 + random.below(40), 1, {0, 0}, 0.1)});
+        for (uint32_t i = random.below(200); i > 0; --i) {
+          const double radius = 0.49 * std::sqrt(random.unit()), angle = random.range(0, 6.28);
+          points.insert(points.end(), {radius * std::cos(angle), radius * std::sin(angle)});
+        }
+    }
+    if (points.empty() && faultsOf(polygon) != kValid) continue;
+    INFO("seed ", seed, " ", describe(polygon));
+    bool turned = false;
+    looked += checkBothSides(polygon, points, turned);
+    quarters += turned;
+  }
+  CHECK(looked > 50'000);
+  CHECK(quarters > 50);
 }
 
 TEST_CASE("constrained delaunay: without ties the triangles do not depend on the method") {
@@ -215,6 +307,21 @@ TEST_CASE(
                                       {0x1p491, 0x1p492},
                                       {-0x1p489, 0x1p488}}});
   CHECK(faultOfTriangulation(polygon, triangulate(polygon, true).triangles) == "");
+  // Many triangles, so that there are edges between blocks too.
+  int far = 0;
+  for (uint32_t seed = 1; seed <= 40; ++seed) {
+    Random random(seed);
+    Polygon large = polygonOf({partitionRing(300, random)});
+    double* least = &large.positions[0];
+    for (double& x : large.positions)
+      if (std::fabs(x) < std::fabs(*least)) least = &x;
+    *least = 0x1p-300;
+    if (faultsOf(large) != kValid) continue;
+    INFO("seed ", seed);
+    CHECK(faultOfTriangulation(large, triangulate(large, true).triangles) == "");
+    ++far;
+  }
+  CHECK(far > 20);
 }
 
 TEST_CASE("constrained delaunay: memory beyond the limit is told, and work that ends") {

@@ -27,7 +27,10 @@ struct Flooded {
     sf::Work work;
     const sf::PolygonView view{polygon.positions, polygon.starts, points};
     if (!sweep.run(view, true, true, work, loops, seen).ok()) return;
-    done = flood.run(loops, seen, work, &trace);
+    {
+      sf::Charge charge(work);
+      done = flood.run(loops, seen, work, charge, &trace);
+    }
     triangles.assign(flood.triangles().begin(), flood.triangles().end());
     CHECK(work.used() == 0);
   }
@@ -60,7 +63,8 @@ void checkTwins(const Flooded& flooded) {
   sf::Flood flood;
   sf::Work work;
   std::vector<uint32_t> expected;
-  REQUIRE(flood.run(flooded.loops, flooded.seen, work, nullptr, true));
+  sf::Charge charge(work);
+  REQUIRE(flood.run(flooded.loops, flooded.seen, work, charge, nullptr, true));
   const sf::ArrayView<uint32_t> triangles = flood.triangles();
   CHECK(std::equal(triangles.begin(), triangles.end(), flooded.triangles.begin(),
                    flooded.triangles.end()));
@@ -198,8 +202,10 @@ TEST_CASE("flooding: loops that no sweep has passed end in a forbidden state, no
     }
     sf::Flood flood;
     sf::Work work;
-    refused += !flood.run(loops, flooded.seen, work);
-    CHECK(flood.triangles().size() <= 3 * (loops.at.size() + 2 * polygon.ringCount() + loops.at.size()));
+    sf::Charge charge(work);
+    refused += !flood.run(loops, flooded.seen, work, charge);
+    CHECK(flood.triangles().size() <=
+          3 * (loops.at.size() + 2 * polygon.ringCount() + loops.at.size()));
   }
   CHECK(refused > 100);
 }

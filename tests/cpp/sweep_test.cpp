@@ -85,6 +85,45 @@ TEST_CASE("sweep: nodes see what a look at every edge finds") {
 }
 
 TEST_CASE(
+    "sweep: events in order, however many, however close in height, with unused ones among them") {
+  constexpr uint32_t kSeed = 4400;
+  CAPTURE(kSeed);
+  Random random(kSeed);
+  int passed = 0;
+  for (const uint32_t n : {3u, 4u, 15u, 16u, 17u, 31u, 33u, 64u, 126u, 127u, 128u, 129u, 130u})
+    for (const double height : {1.0, 0x1p-24, 0x1p-30, 0x1p-60, 0x1p-980, 0x1p-1050})
+      for (int variant = 0; variant < 6; ++variant) {
+        Ring ring = starRing(n, 0.8, random);
+        // Heights on a lattice, so that many are the same; or all within a small part of the whole.
+        for (Point& p : ring) {
+          if (variant % 3 == 1) p.y = std::round(p.y * 16) / 16;
+          p.y *= height;
+        }
+        if (variant % 3 == 2) ring[random.below(n)].y += 3;
+        // Repeated at either end, so that unused nodes come first and last.
+        if (variant >= 3) ring.insert(ring.begin(), ring.front()), ring.push_back(ring.back());
+        if (variant == 5) ring.push_back(ring.front());
+        for (const bool reversed : {false, true}) {
+          Polygon polygon = polygonOf({ring});
+          if (reversed) std::reverse(ring.begin(), ring.end()), polygon = polygonOf({ring});
+          const Swept swept = sweepOf(polygon);
+          if (!swept.outcome.ok()) continue;
+          std::vector<uint32_t> expected;
+          for (uint32_t v = 0; v < swept.loops.at.size(); ++v)
+            if (swept.loops.kind[v] != sf::VertexKind::Unused) expected.push_back(v);
+          if (swept.loops.at.size() != polygon.vertexCount()) continue;  // rings touch
+          std::sort(expected.begin(), expected.end(), [&](uint32_t a, uint32_t b) {
+            return sf::below(swept.loops.at[a], swept.loops.at[b]);
+          });
+          INFO("n ", n, " height ", height, " variant ", variant);
+          CHECK(swept.seen.order == expected);
+          ++passed;
+        }
+      }
+  CHECK(passed > 400);
+}
+
+TEST_CASE(
     "sweep: turned where that leaves far fewer minima, it is the sweep of the polygon turned") {
   int turned = 0, compared = 0;
   for (uint32_t seed = 1; seed <= 600; ++seed) {

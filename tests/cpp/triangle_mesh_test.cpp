@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "base/predicates.h"
@@ -130,4 +131,47 @@ TEST_CASE("triangle mesh: twins are found in fans of very many triangles in line
     wrong +=
         twins[3 * i + 2] != 3 * i + 3 || twins[3 * i + 3] != 3 * i + 2 || twins[3 * i + 1] != kNone;
   CHECK(wrong == 0);
+}
+
+TEST_CASE("closable twins: named otherwise and back, closed and opened, they are the same") {
+  for (uint32_t seed = 1; seed <= 50; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    Sheet sheet(4 + random.below(60), 0, random);
+    std::vector<uint32_t> edges;
+    for (uint32_t v = 4; v < sheet.at.size(); ++v) sheet.mesh.insert(sheet.find(v), v, edges);
+    const std::vector<uint32_t>& plain = sheet.mesh.twins;
+    ClosableTwins twins;
+    twins.fromPlain(plain);
+    const uint32_t halves = uint32_t(plain.size());
+    CHECK(twins.outside >= halves);
+    for (uint32_t h = 0; h < halves; ++h) {
+      // Opposite corner h, so from the next corner on.
+      const uint32_t named = plain[nextInTriangle(h)];
+      CHECK((twins.of[h] == twins.outside) == (named == kNone));
+      if (named == kNone) continue;
+      CHECK(twins.of[twins.of[h]] == h);
+      CHECK(sheet.mesh.corners[nextInTriangle(twins.of[h])] ==
+            sheet.mesh.corners[prevInTriangle(h)]);
+    }
+    const std::vector<uint32_t> open(twins.of.begin(), twins.of.begin() + halves);
+    uint32_t closed = 0;
+    for (uint32_t h = 0; h < halves; h += 1 + random.below(5)) {
+      if (twins.of[h] >= halves) continue;
+      const uint32_t g = twins.of[h];
+      twins.close(h);
+      ++closed;
+      const uint32_t far = twins.of[h];
+      CHECK(far >= twins.outside + 2);
+      CHECK(far % 2 == 0);
+      CHECK(twins.of[far] == h);
+      CHECK(twins.of[far + 1] == g);
+      CHECK(twins.of[g] == far + 1);
+    }
+    CHECK(twins.end == twins.outside + 2 + 2 * closed);
+    std::vector<uint32_t> back(halves);
+    twins.toPlain(back);
+    CHECK(back == plain);
+    CHECK(std::equal(open.begin(), open.end(), twins.of.begin()));
+  }
 }

@@ -3,10 +3,8 @@
 #include <algorithm>
 
 #include "base/assert.h"
-#include "base/charge.h"
 #include "polygon/in_circle.h"
 #include "polygon/metric.h"
-#include "polygon/triangle_mesh.h"
 #include "polygon/turn.h"
 
 namespace sf {
@@ -34,7 +32,9 @@ int levelOf(uint32_t t, uint32_t s) {
 
 bool ConstrainedDelaunay::begin(const LinkedPolygon& loops, ArrayView<uint32_t> triangles,
                                 ClosableTwins& twins, Charge& charge) {
-  constexpr uint64_t kPerCorner = 5 * sizeof(uint32_t);
+  // Borders and triangles of merges, 20 bytes a triangle; edges to look at and whether they are, closed
+  // edges and their far sides.
+  constexpr uint64_t kPerCorner = 6 * sizeof(uint32_t);
   count_ = uint32_t(triangles.size());
   if (!charge.add(kPerCorner * count_ + sizeof(Point2) * uint64_t(loops.at.size()))) return false;
   at_ = loops.at.data();
@@ -42,9 +42,10 @@ bool ConstrainedDelaunay::begin(const LinkedPolygon& loops, ArrayView<uint32_t> 
   metric_ = metricPoints(loops, scaled_, exponent, isExact_).data();
   error_ = errorOfCircles(scaledDown(loops.least, exponent), scaledDown(loops.greatest, exponent));
   corners_ = triangles.data(), twins_ = twins.of.data();
-  all_ = &twins;
+  closable_ = &twins;
   // Flips stay within a block, unless they take the place of merges.
-  const size_t room = isExact_ ? kMostHalves : count_, row = count_ / 3 + 2;
+  const size_t room = isExact_ ? std::max(kMostHalves / 3, kFewHalves) : count_;
+  const size_t row = count_ / 3 + 2;
   if (stack_.size() < room) stack_.resize(room);
   if (free_.items.size() < row)
     left_.items.resize(row), right_.items.resize(row), free_.items.resize(row);
@@ -55,26 +56,20 @@ bool ConstrainedDelaunay::run(const LinkedPolygon& loops, Work& work, ArrayView<
                               ClosableTwins& twins) {
   if (triangles.size() < 6) return true;
   Charge charge(work);
-  if (!begin(loops, triangles, twins, charge)) return false;
-  waits_.assign(count_, false);
-  waiting_ = 0;
-  return improveBlocks(work, [&](uint32_t first, uint32_t end) {
-    return flipBlock(first, end, work);
-  });
+  return begin(loops, triangles, twins, charge) && flipBlocks(work) && giveUpEdges(work);
 }
 
 bool ConstrainedDelaunay::runFlooded(const LinkedPolygon& loops, Work& work, Flood& flood) {
   const ArrayView<uint32_t> triangles = flood.triangles();
   if (triangles.size() < 6) return true;
   Charge charge(work);
-  if (!begin(loops, triangles, flood.twins(), charge)) return false;
-  if (!isExact_) return run(loops, work, triangles, flood.twins());
-  return insertBlocks(work) && giveUpEdges(work);
+  return begin(loops, triangles, flood.twins(), charge) &&
+         (isExact_ ? insertBlocks(work) : flipBlocks(work)) && giveUpEdges(work);
 }
 
 void ConstrainedDelaunay::close(uint32_t h) {
-  all_->close(h);
-  twins_ = all_->of.data();
+  closable_->close(h);
+  twins_ = closable_->of.data();
 }
 
 /// Makes blocks constrained Delaunay, vertex by vertex. A block ends where flips become many.
@@ -93,23 +88,11 @@ bool ConstrainedDelaunay::insertBlocks(Work& work) {
   return true;
 }
 
-/// Makes each block constrained Delaunay by itself, by `improve`, and then the whole.
-template <class Improve>
-bool ConstrainedDelaunay::improveBlocks(Work& work, Improve improve) {
-  const uint32_t size = count_ <= kFewHalves ? kFewHalves : kBlockHalves;
-  for (uint32_t first = 0; first < count_; first += size) {
-    const uint32_t end = std::min(first + size, count_);
-    for (uint32_t h = first; h < end && end < count_; ++h)
-      if (twins_[h] >= end && isOpen(twins_[h])) close(h);
-    if (!improve(first, end)) return false;
-  }
-  return giveUpEdges(work);
-}
-
-/// Inserts the first corner of triangle t, of half-edges t to t + 2, into the triangles before it in the
-/// block: flips edges into ones from it, until none that it sees is illegal. Returns how many.
-uint32_t ConstrainedDelaunay::insert(uint32_t t) {
-  const uint32_t end = t + 3, apex = corners_[t];
+/// Inserts the first corner of a triangle into those before it in the block: flips edges into ones from it,
+/// until none that it sees is illegal. Returns how many.
+///   first  the triangle's first half-edge
+uint32_t ConstrainedDelaunay::insert(uint32_t first) {
+  const uint32_t end = first + 3, apex = corners_[first];
   const Point2 c = metric_[apex];
   // Whether the corner that half-edge g, from b to a, sees lies inside the circle through a, b, c. What
   // comes later in the list is closed for now.
@@ -117,8 +100,10 @@ uint32_t ConstrainedDelaunay::insert(uint32_t t) {
     return g < end && inCircle(a, b, c, metric_[corners_[g]], error_);
   };
   uint32_t* const waiting = stack_.data();
-  uint32_t count = 0, flips = 0;
+  uint32_t count = 0, flips = 0, t = first;
   if (!isIllegal(metric_[corners_[t + 1]], metric_[corners_[t + 2]], twins_[t])) return 0;
+  // The edge opposite the apex is illegal in the triangle of t, its first half-edge; the flip leaves two
+  // triangles at the apex, of t and s.
   for (;;) {
     const uint32_t g = twins_[t], g1 = nextInTriangle(g), g2 = prevInTriangle(g);
     const uint32_t s = std::min(std::min(g, g1), g2);
@@ -147,20 +132,31 @@ inline void ConstrainedDelaunay::push(uint32_t h) {
   waits_[h] = true;
 }
 
-/// Makes a block constrained Delaunay by itself.
-bool ConstrainedDelaunay::flipBlock(uint32_t first, uint32_t end, Work& work) {
-  for (uint32_t h = first; h < end; ++h)
-    if (twins_[h] > h && twins_[h] < end) push(h);
-  return work.tick(50 * (end - first)) && flipStacked(work);
+/// Makes each block constrained Delaunay by itself; the edges between blocks become closed.
+bool ConstrainedDelaunay::flipBlocks(Work& work) {
+  waits_.assign(count_, false);
+  waiting_ = 0;
+  const uint32_t size = count_ <= kFewHalves ? kFewHalves : kBlockHalves;
+  for (uint32_t first = 0; first < count_; first += size) {
+    const uint32_t end = std::min(first + size, count_);
+    for (uint32_t h = first; h < end; ++h) {
+      if (twins_[h] >= end && isOpen(twins_[h])) close(h);
+      if (twins_[h] > h && twins_[h] < end) push(h);
+    }
+    if (!work.tick(50 * (end - first)) || !flipStacked(work)) return false;
+  }
+  return true;
 }
 
 /// The closed edges in the order of giving up.
 void ConstrainedDelaunay::orderEdges() {
   uint32_t starts[kLevels + 1] = {};
-  const uint32_t begin = all_->outside + 2, end = all_->end;
+  const uint32_t begin = closable_->outside + 2, end = closable_->end;
   order_.resize((end - begin) / 2);
-  if (order_.size() == 1) order_[0] = begin;
-  if (order_.size() == 1) return;
+  if (order_.size() == 1) {
+    order_[0] = begin;
+    return;
+  }
   const auto level = [&](uint32_t c) { return levelOf(twins_[c] / 3, twins_[c + 1] / 3); };
   for (uint32_t c = begin; c < end; c += 2) ++starts[level(c) + 1];
   for (int l = 0; l < kLevels; ++l) starts[l + 1] += starts[l];
@@ -168,7 +164,7 @@ void ConstrainedDelaunay::orderEdges() {
 }
 
 bool ConstrainedDelaunay::giveUpEdges(Work& work) {
-  if (all_->end == all_->outside + 2) return true;
+  if (closable_->end == closable_->outside + 2) return true;
   orderEdges();
   for (const uint32_t c : order_) {
     const uint32_t h = twins_[c], g = twins_[c + 1];
@@ -184,7 +180,7 @@ bool ConstrainedDelaunay::giveUpEdges(Work& work) {
     }
     if (!work.tick(50 * changes)) return false;
   }
-  all_->end = all_->outside + 2;
+  closable_->end = closable_->outside + 2;
   return true;
 }
 
@@ -262,7 +258,8 @@ inline void ConstrainedDelaunay::takeRight(uint32_t left, uint32_t right) {
 /// Merges what lies to the left of edge h, which is illegal, and to the right of it. Returns how many
 /// triangles change.
 uint32_t ConstrainedDelaunay::merge(uint32_t h) {
-  const uint32_t g = twins_[h], bottom = corners_[nextInTriangle(h)], top = corners_[prevInTriangle(h)];
+  const uint32_t g = twins_[h], bottom = corners_[nextInTriangle(h)],
+                 top = corners_[prevInTriangle(h)];
   const uint32_t h1 = nextInTriangle(h), h2 = prevInTriangle(h);
   const uint32_t g1 = nextInTriangle(g), g2 = prevInTriangle(g);
   left_.clear(), right_.clear(), free_.clear();

@@ -38,7 +38,7 @@ class ConstrainedDelaunay {
   /// polygons; memory is charged, and kept for the next call.
   bool run(const LinkedPolygon& loops, Work& work, ArrayView<uint32_t> triangles,
            ClosableTwins& twins);
-  /// The same, quicker, for the triangles and twins of a Flood.
+  /// The same, quicker, for the triangles and twins of a Flood that has run with `paired`.
   bool runFlooded(const LinkedPolygon& loops, Work& work, Flood& flood);
 
  private:
@@ -61,11 +61,9 @@ class ConstrainedDelaunay {
 
   bool begin(const LinkedPolygon& loops, ArrayView<uint32_t> triangles, ClosableTwins& twins,
              Charge& charge);
-  template <class Improve>
-  bool improveBlocks(Work& work, Improve improve);
+  bool flipBlocks(Work& work);
   bool insertBlocks(Work& work);
-  uint32_t insert(uint32_t t);
-  bool flipBlock(uint32_t first, uint32_t end, Work& work);
+  uint32_t insert(uint32_t first);
   bool isIllegal(uint32_t h) const;
   void flip(uint32_t h);
   void push(uint32_t h);
@@ -80,7 +78,8 @@ class ConstrainedDelaunay {
   void close(uint32_t h);
   bool isOpen(uint32_t twin) const { return twin < count_; }
 
-  ClosableTwins* all_ = nullptr;
+  // Half-edges are named as in ClosableTwins.
+  ClosableTwins* closable_ = nullptr;
   uint32_t *corners_ = nullptr, *twins_ = nullptr;
   uint32_t count_ = 0;  // of half-edges
   const Point2 *at_ = nullptr, *metric_ = nullptr;

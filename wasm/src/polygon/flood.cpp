@@ -1,20 +1,32 @@
 #include "polygon/flood.h"
 
-#include "base/charge.h"
 #include "polygon/turn.h"
 
 namespace sf {
+namespace {
 
-bool Flood::run(const LinkedPolygon& loops, const Visibility& seen, Work& work,
+// Half-edges and what lies beyond them have numbers up to this: as many again are left for edges to be
+// closed, below 2^32.
+constexpr uint64_t kMostHalves = (uint64_t(1) << 31) - 8;
+
+}  // namespace
+
+bool Flood::run(const LinkedPolygon& loops, const Visibility& seen, Work& work, Charge& kept,
                 std::vector<FloodStep>* trace, bool paired) {
   out_ = corners_.data();
-  Charge charge(work);
   uint32_t bridges = 0;
   for (uint32_t v : seen.order) bridges += loops.kind[v] != VertexKind::Bottom;
   // Every triangle takes one corner away; a bridge adds two.
-  const size_t most = loops.at.size() + 2 * size_t(bridges);
-  const uint64_t perNode = sizeof(Node) + (paired ? 7 : 3) * sizeof(uint32_t);
-  if (!charge.add(most * perNode)) return false;
+  const uint64_t most = loops.at.size() + 2 * uint64_t(bridges);
+  if (3 * most + 2 * uint64_t(bridges) + 4 > kMostHalves) {
+    work.fail(Status::TooLarge);
+    return false;
+  }
+  Charge charge(work);
+  const uint64_t perNode = sizeof(Node) + 2 * sizeof(Node*);
+  if (!charge.add(most * perNode + bridges * 2 * sizeof(Chain)) ||
+      !kept.add(most * (paired ? 7 : 3) * sizeof(uint32_t)))
+    return false;
   // They only grow: what is there needs no clearing.
   if (nodes_.size() < most) nodes_.resize(most);
   if (corners_.size() < 3 * most) corners_.resize(3 * most);
@@ -29,8 +41,9 @@ bool Flood::begin(const LinkedPolygon& loops, const Visibility& seen, Work& work
   const size_t m = loops.at.size();
   Node* const nodes = nodes_.data();
   for (size_t v = 0; v < m; ++v)
-    nodes[v] = {loops.at[v], nodes + loops.next[v], nodes + loops.prev[v], uint32_t(v),
-                twins_.outside, nullptr, nullptr, loops.kind[v]};
+    nodes[v] = {loops.at[v], nodes + loops.next[v], nodes + loops.prev[v],
+                uint32_t(v), twins_.outside,        nullptr,
+                nullptr,     loops.kind[v]};
   unused_ = nodes + m;
   bottoms_.clear(), pending_.clear();
   nextBottom_ = spilled_ = 0, spilledTo_ = nullptr;

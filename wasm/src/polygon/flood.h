@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/charge.h"
 #include "base/work.h"
 #include "polygon/polygon.h"
 #include "polygon/sweep.h"
@@ -23,19 +24,26 @@ enum class FloodAction : uint32_t { Start, Raise, Fill, Bridge, Spill, Jump };
 
 class Flood {
  public:
+  Flood() = default;
+  Flood(const Flood&) = delete;
+  Flood& operator=(const Flood&) = delete;
+
   /// Triangulates the loops.
   ///   loops, seen  as PlaneSweep::run leaves them; they are read only
+  ///   kept         is charged with the triangles and twins, for as long as they are wanted
   ///   trace        if not null, gets the actions, with nodes for vertices
   ///   paired       whether twins are wanted too
   /// False, after a forbidden state, only for loops that no sweep has passed; or once `work` is to
-  /// end. O(m) time and memory; the memory is kept, and charged during the call.
-  bool run(const LinkedPolygon& loops, const Visibility& seen, Work& work,
+  /// end. O(m) time and memory; the memory is kept, and all else of it charged during the call.
+  bool run(const LinkedPolygon& loops, const Visibility& seen, Work& work, Charge& kept,
            std::vector<FloodStep>* trace = nullptr, bool paired = false);
 
-  /// [3t] The triangles of the last run, as nodes, counter-clockwise; all are strictly positive. Each was
-  /// made for its first corner, which sees the edge between the others; what lies below that edge, and
-  /// any other neighbour, comes earlier in the list, but for the neighbours of one corner that made them
-  /// all, and across bridges. Theirs to change, whoever ran it.
+  /// [3t] The triangles of the last run, as nodes, counter-clockwise, strictly positive; the caller may
+  /// change them. Each was made for its first corner v, over an edge cd of the active chain:
+  /// - the triangle on the other side of cd, if there is one, comes earlier in the list;
+  /// - of its other two neighbours, those that come earlier were made for the same v, or lie across a bridge;
+  /// - where it shares an edge vd with a triangle v d e made for the same v, the angle cde is at least pi on
+  ///   the side of v, since no vertex of an active chain sees past its neighbours.
   ArrayView<uint32_t> triangles() { return {corners_.data(), size_t(out_ - corners_.data())}; }
   /// Hands the triangles over in exchange for what `to` holds, whose memory the next run will use.
   void handOver(Buffer<uint32_t>& to) {
@@ -51,9 +59,10 @@ class Flood {
   struct Node {
     Point2 at;
     Node *next, *prev;
-    uint32_t node;   // of `loops`, which copies share
-    uint32_t below;  // what lies below the link to the next one: the half-edge of a triangle, or one
-                     // beyond them
+    uint32_t node;  // of `loops`, which copies share
+    uint32_t
+        below;   // what lies below the link to the next one: the half-edge of a triangle, or one
+                 // beyond them
     Node* sag;   // the lowest sag that waits under the edge that rises from here on the left bank
     Node* jump;  // of a top that one side has reached: the other end of that side's chain; of a
                  // sag that waits: the next one under the same edge

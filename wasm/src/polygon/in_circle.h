@@ -1,7 +1,7 @@
 // incircle with its filter inline.
 // Source: Cline, Renka 1984, "A storage-efficient method for construction of a Thiessen
 // triangulation", for the determinant by the angles at c and d over the chord from a to b: it is
-// -|sin(C + D)| times lengths. Differs: computed two numbers at a time.
+// -sin(C + D) times lengths. Differs: computed two numbers at a time.
 #pragma once
 #include <cmath>
 

@@ -84,7 +84,8 @@ bool copyScaled(const PolygonView& polygon, bool mayTurn, bool complement, Linke
     }
   };
   copy(polygon.positions, at.data());
-  linked.turned = mayTurn && 4 * extent.extrema[0] < 3 * extent.extrema[1];
+  // Of the rings alone: from here on others are counted as well.
+  const bool turns = mayTurn && 4 * extent.extrema[0] < 3 * extent.extrema[1];
   if (!complement) copy(polygon.points, at.data() + n);
   if (!extent.isAccepted()) return false;
   if (complement) frameAround(polygon, at.data() + n);
@@ -96,10 +97,17 @@ bool copyScaled(const PolygonView& polygon, bool mayTurn, bool complement, Linke
   const Point2 greatest = {extent.greatest[0] * scale, extent.greatest[1] * scale};
   linked.least = least, linked.greatest = greatest;
   linked.smallest = lesser(extent.smallest, swapped(extent.smallest))[0] * scale;
-  if (!linked.turned) return true;
+  linked.turned = turns;
+  if (!turns) return true;
   for (Point2& q : at) q = {-q.y, q.x};
   linked.least = {-greatest.y, least.x}, linked.greatest = {-least.y, greatest.x};
   return true;
+}
+
+/// Makes a node unused: linked to itself alone.
+void setAside(LinkedPolygon& linked, uint32_t v) {
+  linked.kind[v] = VertexKind::Unused;
+  linked.next[v] = linked.prev[v] = v;
 }
 
 /// One ring on its way into loops.
@@ -153,8 +161,10 @@ void RingLinker::look() {
     const uint32_t upNext = rises(from, to);
     repeats |= (from.x == to.x) & (from.y == to.y);
     if (to.y <= low.y) {
-      if (below(to, low)) low = to, lowest = i + 1, again = false;
-      else again |= to == low;
+      if (below(to, low))
+        low = to, lowest = i + 1, again = false;
+      else
+        again |= to == low;
     }
     kind[i] = kKinds[2 * up + upNext];
     up = upNext, from = to;
@@ -196,7 +206,8 @@ void RingLinker::link(bool reversed) {
   before[first_] = last_, after[last_] = first_;
   if (!reversed) return;
   // Banks turn round with the ring, minima and maxima do not.
-  static_assert(int(VertexKind::LeftBank) == 0 && int(VertexKind::RightBank) == 1, "told by numbers");
+  static_assert(int(VertexKind::LeftBank) == 0 && int(VertexKind::RightBank) == 1,
+                "told by numbers");
   for (uint32_t i = first_; i <= last_; ++i)
     kind[i] = VertexKind(uint8_t(kind[i]) ^ uint8_t(uint8_t(kind[i]) < 2));
 }
@@ -212,7 +223,7 @@ bool RingLinker::linkDistinct(bool reversed) {
   uint32_t count = 0, v = begin;
   do {
     uint32_t w = step(v);
-    while (at_[w] == at_[v]) p_.kind[w] = VertexKind::Unused, w = step(w);
+    while (at_[w] == at_[v]) setAside(p_, w), w = step(w);
     for (uint32_t d = v; step(d) != w; d = step(d)) p_.flat.insert(p_.flat.end(), {d, step(d), w});
     p_.next[v] = w, p_.prev[w] = v;
     ++count;
@@ -251,7 +262,7 @@ Outcome linkRings(const PolygonView& polygon, bool mayTurn, bool complement, Lin
     const uint32_t first = polygon.starts[c];
     uint32_t size = polygon.starts[c + 1] - first;
     if (size > 1 && linked.at[first] == linked.at[first + size - 1])
-      linked.kind[first + --size] = VertexKind::Unused;
+      setAside(linked, first + --size);
     Outcome bad;
     bad.status = Status::DegeneratePolygon, bad.loop = c;
     if (size < 3) return bad;

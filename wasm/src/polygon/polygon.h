@@ -56,11 +56,11 @@ enum class VertexKind : uint8_t {
 /// rings touch, vertices have more corners than occurrences in rings, and each is a node.
 /// The polygon lies to the left of every link u -> next[u]; an island is linked to itself.
 struct LinkedPolygon {
-  Buffer<Point2> at;             // [m] scaled by a power of two, if need be, and turned if `turned`
-  Point2 least{}, greatest{};    // corners of the box around all nodes
-  double smallest = 0;           // the least magnitude of their coordinates, but for zeros; or infinite
-  bool turned = false;           // by a quarter, counter-clockwise: input x runs upwards
-  Buffer<uint32_t> vertex;       // [m] index in the input
+  Buffer<Point2> at;           // [m] scaled by a power of two, if need be, and turned if `turned`
+  Point2 least{}, greatest{};  // corners of the box around all nodes
+  double smallest = 0;      // the least magnitude of their coordinates, but for zeros; or infinite
+  bool turned = false;      // by a quarter, counter-clockwise: input x runs upwards
+  Buffer<uint32_t> vertex;  // [m] index in the input
   Buffer<uint32_t> next, prev;
   Buffer<VertexKind> kind;
   // [3z] zero-area triangles of input vertices that join the links to the input's edges: where a

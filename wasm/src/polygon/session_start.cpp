@@ -129,13 +129,14 @@ bool PolygonSession::flood(ArrayView<const uint32_t> ringNext, Work& work) {
   ConstrainedDelaunay delaunay;
   LinkedPolygon inside, outside;
   Visibility seen, seenOutside;
+  Charge charge(work);
   if (!sweep.run({xy[0], starts, xy[1]}, true, false, work, inside, seen).ok()) return false;
-  if (!sweep.isPlain() || !flood.run(inside, seen, work, nullptr, true)) return false;
+  if (!sweep.isPlain() || !flood.run(inside, seen, work, charge, nullptr, true)) return false;
   if (!delaunay.runFlooded(inside, work, flood)) return false;
   for (const uint32_t v : flood.triangles()) corners.push_back(numbers[v]);
   takeComplement(inside, seen, outside, seenOutside);
   widenFrame(outside);
-  if (!flood.run(outside, seenOutside, work, nullptr, true)) return false;
+  if (!flood.run(outside, seenOutside, work, charge, nullptr, true)) return false;
   if (!delaunay.runFlooded(outside, work, flood)) return false;
   const uint32_t count = uint32_t(numbers.size());
   for (const uint32_t v : flood.triangles()) corners.push_back(v < count ? numbers[v] : v - count);

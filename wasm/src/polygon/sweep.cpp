@@ -138,7 +138,8 @@ uint32_t State::numberChains() {
   const uint32_t m = uint32_t(loops->at.size());
   chains.resize(m);
   uint32_t count = 0;
-  for (uint32_t r = 0; r < rings; ++r) count = numberRing(starts[r], starts[r + 1], reversed[r], count);
+  for (uint32_t r = 0; r < rings; ++r)
+    count = numberRing(starts[r], starts[r + 1], reversed[r], count);
   if (m > n && loops->kind[n] != VertexKind::Island) count = numberRing(n, m, false, count);
   return count;
 }
@@ -147,7 +148,8 @@ uint32_t State::numberChains() {
 /// that leads down, the minimum, the one that leads up from it, the maximum.
 uint32_t State::numberRing(uint32_t first, uint32_t end, bool backwards, uint32_t record) {
   const VertexKind* kind = loops->kind.data();
-  const uint32_t size = end - first, begin = backwards ? end - 1 : first, step = backwards ? kNone : 1;
+  const uint32_t size = end - first, begin = backwards ? end - 1 : first,
+                 step = backwards ? kNone : 1;
   // Where the ring begins on a way up, its minimum comes last.
   uint32_t v = begin;
   while (kind[v] == VertexKind::Unused) v += step;
@@ -183,7 +185,7 @@ uint32_t State::edgeNear(uint32_t v) const {
 State::Event State::eventOf(uint32_t v, bool hints) const {
   const VertexKind kind = loops->kind[v];
   uint32_t near = kind == VertexKind::RightBank ? loops->next[v] : loops->prev[v];
-  if (hints && kind == VertexKind::Bottom) near = edgeNear(v);
+  if (kind == VertexKind::Bottom) near = hints ? edgeNear(v) : kNone;
   if (kind == VertexKind::Island) near = kNone;
   return {loops->at[v], v, chains[v], near, kind};
 }
@@ -210,7 +212,7 @@ size_t State::makeEvents(bool hints) {
 }
 
 /// Makes few events in the order of keys, the heights in 2^23 steps: each goes where as many are below it,
-/// which takes no branches.
+/// which takes no branches. Those of unused nodes all come to be at one place past the others.
 void State::rankEvents(bool hints, double toKey) {
   using Int4 = int32_t __attribute__((vector_size(16)));
   constexpr size_t kAtOnce = 16;
@@ -272,7 +274,8 @@ void State::sortEvents() {
   // insertion, since nothing moves out of its own.
   for (size_t b = 0, begin = 0; b + 1 < buckets.size(); begin = buckets[b++])
     if (buckets[b] - begin > kFewInBucket)
-      std::sort(events.begin() + ptrdiff_t(begin), events.begin() + ptrdiff_t(buckets[b]), comesBefore);
+      std::sort(events.begin() + ptrdiff_t(begin), events.begin() + ptrdiff_t(buckets[b]),
+                comesBefore);
   sortNearby();
 }
 

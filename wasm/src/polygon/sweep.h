@@ -26,8 +26,8 @@ namespace sf {
 /// polygon lies. An edge is named by its lower node u: on the left it is the link prev[u] -> u, on
 /// the right u -> next[u]. kNone where the polygon does not lie on that side.
 struct Visibility {
-  std::vector<uint32_t> order;        // used nodes by increasing height
-  Buffer<uint32_t> left, right;       // [m]
+  std::vector<uint32_t> order;   // used nodes by increasing height
+  Buffer<uint32_t> left, right;  // [m]
 };
 
 struct SweepState;  // sweep_state.h

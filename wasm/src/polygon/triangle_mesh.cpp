@@ -1,7 +1,5 @@
 #include "polygon/triangle_mesh.h"
 
-#include <algorithm>
-
 #include "base/charge.h"
 #include "base/predicates.h"
 #include "polygon/turn.h"

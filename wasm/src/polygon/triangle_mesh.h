@@ -34,8 +34,8 @@ bool findTwins(ArrayView<const uint32_t> corners, uint32_t vertexCount, Work& wo
 /// h and g with far sides c and c + 1 has of[h] = c, of[c] = h, of[g] = c + 1, of[c + 1] = g.
 struct ClosableTwins {
   Buffer<uint32_t> of;   // [at least end]; of[outside] means nothing
-  uint32_t outside = 0;      // even, not below the number of half-edges
-  uint32_t end = 0;          // past the far sides of closed edges; both from outside + 2 on
+  uint32_t outside = 0;  // even, not below the number of half-edges
+  uint32_t end = 0;      // past the far sides of closed edges; both from outside + 2 on
 
   /// No twins and no closed edges, with room for so many of each; what `of` holds is left as it is.
   void reset(uint32_t halves, uint32_t closed) {

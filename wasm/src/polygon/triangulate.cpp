@@ -38,7 +38,7 @@ struct PolygonTriangulator::State {
   Visibility seen, outside;
   Certificate certificate;
   std::vector<uint32_t> starts;
-  std::vector<uint32_t> corners;  // by trapezoids
+  std::vector<uint32_t> corners;     // by trapezoids
   std::vector<uint32_t> plainTwins;  // of these
   ClosableTwins twins;
   // The triangles of the current polygon, but for flat ones, and their twins where these are known.
@@ -47,7 +47,8 @@ struct PolygonTriangulator::State {
 
   Outcome append(const PolygonView& polygon, const PolygonOptions& options, uint32_t first,
                  Work& work, std::vector<uint32_t>& triangles, std::vector<FloodStep>* trace);
-  bool triangulateLoops(const PolygonOptions& options, Work& work, std::vector<FloodStep>* trace);
+  bool triangulateLoops(const PolygonOptions& options, Work& work, Charge& charge,
+                        std::vector<FloodStep>* trace);
   Outcome appendRepaired(const PolygonView& polygon, const PolygonOptions& options, Work& work,
                          PolygonTriangulation& result);
   bool isCertain(const PolygonView& polygon, bool sagsOnly, Work& work);
@@ -58,12 +59,16 @@ PolygonTriangulator::~PolygonTriangulator() = default;
 
 /// Finds the triangles of the linked loops, as nodes.
 bool PolygonTriangulator::State::triangulateLoops(const PolygonOptions& options, Work& work,
-                                                  std::vector<FloodStep>* trace) {
+                                                  Charge& charge, std::vector<FloodStep>* trace) {
   if (options.method == PolygonMethod::Flooding) {
-    if (!flood.run(loops, seen, work, trace, options.delaunay || options.verify)) return false;
+    if (!flood.run(loops, seen, work, charge, trace, options.delaunay || options.verify))
+      return false;
     found = flood.triangles(), foundTwins = &flood.twins();
     return !options.delaunay || delaunay.runFlooded(loops, work, flood);
   }
+  // The triangles, and their twins in two forms.
+  if (!charge.add(3 * sizeof(uint32_t) * uint64_t(loops.at.size()) * (options.delaunay ? 4 : 2)))
+    return false;
   const bool forStrips = options.strips && !options.delaunay;
   corners.clear();
   if (!trapezoids.triangulate(loops, seen, true, forStrips, work, corners)) return false;
@@ -91,7 +96,7 @@ Outcome PolygonTriangulator::State::append(const PolygonView& polygon,
   // Trapezoids lie along x, and a trace tells of heights along y.
   outcome = sweep.run(polygon, sagsOnly, sagsOnly && !trace, work, loops, seen);
   if (!outcome.ok()) return outcome;
-  bool done = triangulateLoops(options, work, trace);
+  bool done = triangulateLoops(options, work, charge, trace);
   if (done && loops.at.size() > n) {
     for (uint32_t& v : found) v = loops.vertex[v];
     if (trace)
@@ -156,7 +161,7 @@ bool PolygonTriangulator::State::isCertain(const PolygonView& polygon, bool sags
   } else if (!sweep.runComplement(polygon, work, outerLoops, outside).ok()) {
     return false;
   }
-  if (!flood.run(outerLoops, outside, work, nullptr, true)) return false;
+  if (!flood.run(outerLoops, outside, work, charge, nullptr, true)) return false;
   flood.handOver(c.complement);
   c.complementPaired = c.complement.size();
   takeTwins(flood.twins(), c.complementTwins);
@@ -249,7 +254,8 @@ Outcome PolygonTriangulator::triangulateBatch(const PolygonBatch& batch,
     for (uint32_t r = polygons[p]; r <= polygons[p + 1]; ++r) starts.push_back(rings[r] - first);
     const PolygonView view{
         batch.positions.slice(2 * size_t(first), 2 * size_t(end - first)), starts, {}};
-    if (starts.size() > 1) outcome = state_->append(view, each, first, work, result.triangles, nullptr);
+    if (starts.size() > 1)
+      outcome = state_->append(view, each, first, work, result.triangles, nullptr);
     if (!work.going()) return outcome;
     if (!outcome.ok()) result.faults.push_back({p, outcome});
     outcome = {};
