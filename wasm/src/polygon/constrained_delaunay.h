@@ -50,7 +50,7 @@ class ConstrainedDelaunay {
   /// What is pushed and popped, in memory that is there: as much as a merge can need.
   template <class T>
   struct Stack {
-    std::vector<T> items;
+    Buffer<T> items;
     T* top = nullptr;  // past the last one
     void clear() { top = items.data(); }
     void push(const T& item) { *top++ = item; }

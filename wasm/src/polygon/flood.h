@@ -99,7 +99,7 @@ class Flood {
   }
   void append(FloodAction action);
 
-  std::vector<Node> nodes_;
+  Buffer<Node> nodes_;
   std::vector<Node*> bottoms_;
   std::vector<Chain> pending_;
   Node* unused_ = nullptr;

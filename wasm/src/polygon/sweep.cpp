@@ -270,6 +270,7 @@ void State::sortEvents() {
   unsorted.swap(events);
   events.resize(count);
   for (size_t i = 0; i < count; ++i) events[buckets[places[i]]++] = unsorted[i];
+  if (count > kFarApart) Buffer<Event>().swap(unsorted);  // room that flooding will want
   // Each start has moved to the end of its bucket. Buckets of a few are sorted all together, by
   // insertion, since nothing moves out of its own.
   for (size_t b = 0, begin = 0; b + 1 < buckets.size(); begin = buckets[b++])

@@ -60,7 +60,7 @@ bool TriangleMesh::isIllegal(uint32_t h) const {
 }
 
 void ClosableTwins::close(uint32_t h) {
-  if (of.size() < end + size_t(2)) of.resize(2 * of.size() + 2);
+  if (of.size() < end + size_t(2)) of.resize(of.size() + of.size() / 8 + 2);
   const uint32_t g = of[h], c = addClosed();
   pair(h, c), pair(g, c + 1);
 }
