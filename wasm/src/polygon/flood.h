@@ -59,10 +59,8 @@ class Flood {
   struct Node {
     Point2 at;
     Node *next, *prev;
-    uint32_t node;  // of `loops`, which copies share
-    uint32_t
-        below;   // what lies below the link to the next one: the half-edge of a triangle, or one
-                 // beyond them
+    uint32_t node;   // of `loops`, which copies share
+    uint32_t below;  // the far side of the link to the next one: what lies below it
     Node* sag;   // the lowest sag that waits under the edge that rises from here on the left bank
     Node* jump;  // of a top that one side has reached: the other end of that side's chain; of a
                  // sag that waits: the next one under the same edge
