@@ -24,6 +24,8 @@ const kMostRuns = 1000;
 /** An engine whose first run takes longer is run once more, or not at all; the shorter run counts. */
 const kDear = 2;
 const kVeryDear = 10;
+/** Vertices of the inputs that are taken in turn, together. */
+const kInTurn = 20_000;
 /** A case that takes longer is given up. */
 const kMostSeconds = 120;
 
@@ -119,7 +121,8 @@ async function measureCase(c) {
     const takesPoints = ['flooding', 'trapezoids', 'delaunay', 'verify', 'strips'].includes(name);
     return points ? takesPoints : n / polygons.length <= kEngines[name].most;
   });
-  const others = Array.from({ length: (c.inputs ?? 1) - 1 }, (_, i) => c.make(kSeed + 1 + i).polygons);
+  const inputs = c.inTurn ? Math.ceil(kInTurn / n) : 1;
+  const others = Array.from({ length: inputs - 1 }, (_, i) => c.make(kSeed + 1 + i).polygons);
   const racers = (wanted) =>
     names.filter(wanted).map((name) => {
       const runs = [polygons, ...others].map((input) => kEngines[name].prepare(input, inner, c.repairs));

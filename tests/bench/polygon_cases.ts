@@ -26,8 +26,8 @@ export interface PolygonCase {
   /** Cases of one family differ in size alone: their times give a scaling exponent. */
   readonly family: string;
   readonly make: (seed: number) => { readonly polygons: Polygon2[]; readonly points?: Point2[] };
-  /** So many inputs of seeds one after the other are taken in turn: else processors learn one by heart. */
-  readonly inputs?: number;
+  /** Inputs of several seeds are taken in turn: else processors learn a small one by heart. */
+  readonly inTurn?: boolean;
   /** The largest time of flooding as a share of earcut's that is wanted. */
   readonly ratio?: number;
   /** What is wanted of flooding by itself. */
@@ -58,7 +58,7 @@ function series(
     id: `${family} ${n}`,
     family,
     make: (seed) => one(make(n, new Random(seed))),
-    inputs: Math.ceil(20_000 / n),
+    inTurn: true,
     ...facts(n),
   }));
 }

@@ -40,7 +40,8 @@ bool ConstrainedDelaunay::begin(const LinkedPolygon& loops, ArrayView<uint32_t> 
   at_ = loops.at.data();
   int exponent;
   metric_ = metricPoints(loops, scaled_, exponent, isExact_).data();
-  error_ = errorOfCircles(scaledDown(loops.least, exponent), scaledDown(loops.greatest, exponent));
+  const auto inMetric = [&](Point2 p) { return exponent == 0 ? p : scaledDown(p, exponent); };
+  error_ = errorOfCircles(inMetric(loops.least), inMetric(loops.greatest));
   corners_ = triangles.data(), twins_ = twins.of.data();
   closable_ = &twins;
   // Flips stay within a block, unless they take the place of merges.
