@@ -140,8 +140,9 @@ export class PolygonSession {
     const triangleCount = told[1];
     const status = told[2];
     const count = (told.length - kFacts) / 4;
-    let changed = told.slice(kFacts, kFacts + count);
-    let triangles = told.slice(kFacts + count);
+    // Views of one buffer, which is theirs alone: copies would take a tenth of the time of an edit.
+    let changed = told.subarray(kFacts, kFacts + count);
+    let triangles = told.subarray(kFacts + count);
     this.#count = 3 * triangleCount;
     if (this.#triangles.length < this.#count) {
       const larger = new Uint32Array(2 * this.#count);

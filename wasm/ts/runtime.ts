@@ -218,7 +218,7 @@ export function callCore<const T extends readonly ArrayType[]>(
 
 /** Lets a large shared instance go after a while without calls. Node does not wait for that. */
 function giveUpWhenIdle(home: Home): void {
-  clearTimeout(home.idle);
+  if (home.idle) clearTimeout(home.idle);
   if (home.core && home.core.memory.buffer.byteLength > kKeepBytes) {
     home.idle = setTimeout(() => (home.core = undefined), kIdleMs);
     (home.idle as { unref?: () => void }).unref?.();
@@ -251,9 +251,9 @@ function callIn<const T extends readonly ArrayType[]>(
   }
   const block = size < 2 ** 32 ? find('sf_alloc')(size) >>> 0 : 0;
   if (block === 0) throw new SoapfilmError('out-of-memory', 'The input does not fit into memory');
-  const where = block;
-  const result = block + 16;
-  new Uint32Array(memory.buffer, block, 6).fill(0xffffffff, 0, 4).fill(0, 4);
+  const head = (): Uint32Array => new Uint32Array(memory.buffer, block, 6);
+  let told = head();
+  for (let i = 0; i < 6; i++) told[i] = i < 4 ? 0xffffffff : 0; // `fill` takes longer
   let next = block + 24;
   const values = args.map((arg) => {
     if (arg === null) return 0;
@@ -265,8 +265,9 @@ function callIn<const T extends readonly ArrayType[]>(
     next += padded(arg.byteLength);
     return address;
   });
-  const status = entry(...values, where, result);
-  const handle = new Uint32Array(memory.buffer, result, 1)[0];
+  const status = entry(...values, block, block + 16);
+  if (told.length === 0) told = head(); // the memory has grown
+  const handle = told[4];
   let arrays: Arrays<T> | undefined;
   const { borrows = false, explain = statusError } = thisRun.watch;
   try {
@@ -282,7 +283,7 @@ function callIn<const T extends readonly ArrayType[]>(
     if (arrays && borrows) called.lent = handle;
     else if (handle !== 0) find('sf_result_free')(handle);
   }
-  const culprits = new Uint32Array(memory.buffer, where, 4).slice();
+  const culprits = arrays ? told : head().slice(0, 4);
   find('sf_free')(block);
   if (thisRun.stop && !(thisRun.stop.gently && arrays)) throw thisRun.stop.reason;
   if (!arrays) {

@@ -278,7 +278,7 @@ export interface PolygonsTriangulation extends PolygonTriangulation {
   readonly errors: readonly SoapfilmError[];
 }
 
-/** What an edit of a PolygonSession changed. */
+/** What an edit of a PolygonSession changed. Its arrays may be views of one buffer, which is theirs alone. */
 export interface PolygonEdit {
   /** The vertex inserted, moved or deleted. */
   readonly vertex: number;
