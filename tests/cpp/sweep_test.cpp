@@ -124,6 +124,40 @@ TEST_CASE(
 }
 
 TEST_CASE(
+    "sweep: the box around all nodes, and the least magnitude but zero, turned and scaled too") {
+  int turned = 0;
+  for (uint32_t seed = 1; seed <= 300; ++seed) {
+    Random random(seed);
+    Polygon polygon = seed % 3 == 0 ? polygonOf({combRing(20, random)}) : smallPolygon(random);
+    if (seed % 4 == 1) polygon = scaledBy(polygon, 0x1p-400);
+    polygon.positions[random.below(uint32_t(polygon.positions.size()))] *= 0x1p-90;
+    sf::PlaneSweep sweep;
+    sf::LinkedPolygon loops;
+    sf::Visibility seen;
+    sf::Work work;
+    const sf::PolygonView view{polygon.positions, polygon.starts, {}};
+    const bool complement = seed % 2 == 0;
+    const sf::Outcome outcome = complement ? sweep.runComplement(view, work, loops, seen)
+                                           : sweep.run(view, true, true, work, loops, seen);
+    if (!outcome.ok()) continue;
+    sf::Point2 least = loops.at[0], greatest = least;
+    double smallest = HUGE_VAL;
+    for (const sf::Point2 p : loops.at) {
+      least = {std::min(least.x, p.x), std::min(least.y, p.y)};
+      greatest = {std::max(greatest.x, p.x), std::max(greatest.y, p.y)};
+      for (const double x : {std::fabs(p.x), std::fabs(p.y)})
+        if (x > 0) smallest = std::min(smallest, x);
+    }
+    INFO("seed ", seed, " ", describe(polygon));
+    CHECK(loops.least == least);
+    CHECK(loops.greatest == greatest);
+    CHECK(loops.smallest == smallest);
+    turned += loops.turned;
+  }
+  CHECK(turned > 20);
+}
+
+TEST_CASE(
     "sweep: turned where that leaves far fewer minima, it is the sweep of the polygon turned") {
   int turned = 0, compared = 0;
   for (uint32_t seed = 1; seed <= 600; ++seed) {
