@@ -23,7 +23,7 @@ bool Flood::run(const LinkedPolygon& loops, const Visibility& seen, Work& work, 
     return false;
   }
   Charge charge(work);
-  const uint64_t perNode = sizeof(Node) + 2 * sizeof(Node*);
+  const uint64_t perNode = sizeof(Node) + 2 * sizeof(void*);
   if (!charge.add(most * perNode + bridges * 2 * sizeof(Chain)) ||
       !kept.add(most * (paired ? 7 : 3) * sizeof(uint32_t)))
     return false;
