@@ -11,7 +11,7 @@ namespace sf {
 template <class T>
 struct LeaveAsIs : std::allocator<T> {
   template <class U>
-  struct rebind {
+  struct rebind {  // NOLINT(readability-identifier-naming): the standard's name
     using other = LeaveAsIs<U>;
   };
   LeaveAsIs() = default;
