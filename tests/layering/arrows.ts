@@ -3,23 +3,48 @@
 import { readFileSync, readdirSync, statSync } from 'node:fs';
 import path from 'node:path';
 
-/** What the files of each folder of wasm/src may include besides their own folder. */
-const kCore: Readonly<Partial<Record<string, readonly string[]>>> = {
-  base: [],
-  delaunay: ['base'],
-  loops: ['base', 'delaunay'],
-  mesh: ['base', 'delaunay', 'loops'],
-  polygon: ['base'],
-  surface: ['base', 'polygon'],
-  tin: ['base'],
-  abi: ['base', 'delaunay', 'loops', 'mesh', 'polygon', 'surface', 'tin'],
-};
+/** What the files of each folder of wasm/src may include besides their own folder: all that stands below it. */
+const kCore: Readonly<Partial<Record<string, readonly string[]>>> = (() => {
+  const base = ['base'];
+  const triangles = [...base, 'triangles'];
+  const problem = [...base, 'delaunay', 'loops/problem'];
+  const domains = [...problem, 'loops/one_loop', 'loops/domains'];
+  const bounds = [...domains, 'loops/bounds'];
+  const loops = [...bounds, 'loops/spaces', 'loops/search', 'loops'];
+  const sweep = [...triangles, 'polygon/input', 'polygon/strips', 'polygon/sweep'];
+  const fill = [...sweep, 'polygon/fill'];
+  const polygon = [...fill, 'polygon/session', 'polygon/repair', 'polygon'];
+  return {
+    base: [],
+    delaunay: base,
+    triangles: base,
+    'loops/problem': problem,
+    'loops/one_loop': problem,
+    'loops/spaces': problem,
+    'loops/domains': domains,
+    'loops/bounds': domains,
+    'loops/search': bounds,
+    loops,
+    mesh: [...loops, 'triangles'],
+    'polygon/input': base,
+    'polygon/strips': triangles,
+    'polygon/sweep': sweep,
+    'polygon/fill': sweep,
+    'polygon/session': fill,
+    'polygon/repair': fill,
+    polygon,
+    surface: polygon,
+    tin: triangles,
+    // Features are entered from above.
+    abi: [...base, 'loops', 'mesh', 'polygon', 'polygon/input', 'polygon/session', 'surface', 'tin'],
+  };
+})();
 
 /** Names by which code outside wasm/ may know the library. */
 const kPublic = [
   'soapfilm',
   'soapfilm/worker',
-  'soapfilm/core.wasm',
+  'soapfilm/loops.wasm',
   'soapfilm/polygons.wasm',
   'soapfilm/package.json',
 ];
@@ -82,12 +107,12 @@ function judgeIncludes({ path: file, text }: SourceFile): string[] {
     if (sees || file.startsWith('wasm/include/')) return [];
     return names.filter((name) => name !== 'soapfilm.h').map((name) => `includes "${name}"`);
   }
-  const folder = file.split('/')[2];
+  const folder = path.posix.dirname(file).slice('wasm/src/'.length);
   const allowed = kCore[folder];
   if (!allowed) return [`wasm/src/${folder} has no place among the layers`];
   return names.flatMap((name) => {
     if (name === 'soapfilm.h') return folder === 'abi' ? [] : ['only abi includes soapfilm.h'];
-    const target = name.split('/')[0];
+    const target = path.posix.dirname(name);
     if (!name.includes('/') || name.startsWith('.')) {
       return [`includes "${name}" without its folder`];
     }

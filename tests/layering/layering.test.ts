@@ -19,6 +19,12 @@ describe('layers', () => {
     ['an include without its folder', 'wasm/src/loops/a.cpp', '#include "span.h"'],
     ['an include by a path', 'wasm/src/loops/a.cpp', '#include "../base/vec.h"'],
     ['the C ABI seen by a feature', 'wasm/src/loops/a.cpp', '#include "soapfilm.h"'],
+    ['a problem that knows its solver', 'wasm/src/loops/problem/a.h', '#include "loops/solver.h"'],
+    ['domains that know their bounds', 'wasm/src/loops/domains/a.cpp', '#include "loops/bounds/fan_bound.h"'],
+    ['spaces that solve', 'wasm/src/loops/spaces/a.cpp', '#include "loops/domains/pass.h"'],
+    ['a sweep that fills', 'wasm/src/polygon/sweep/a.cpp', '#include "polygon/fill/flood.h"'],
+    ['triangles that know polygons', 'wasm/src/triangles/a.h', '#include "polygon/input/polygon.h"'],
+    ['the C ABI inside a feature', 'wasm/src/abi/a.cpp', '#include "loops/bounds/fan_bound.h"'],
     ['a folder without a layer', 'wasm/src/util/a.h', '#include "base/vec.h"'],
     ['pointers outside runtime.ts', 'wasm/ts/loops.ts', 'new Uint8Array(memory.buffer, 8, 4);'],
     ['an allocation outside runtime.ts', 'wasm/ts/loops.ts', "call('sf_alloc', 8);"],
@@ -35,6 +41,8 @@ describe('layers', () => {
   });
 
   const good: [string, string, string][] = [
+    ['a search by bounds', 'wasm/src/loops/search/a.h', '#include "loops/bounds/direct_solver.h"'],
+    ['repair by the sweep', 'wasm/src/polygon/repair/a.cpp', '#include "polygon/sweep/segment_order.h"'],
     ['loops on delaunay', 'wasm/src/loops/a.cpp', '#include "delaunay/delaunay.h"\n#include <vector>'],
     ['abi on all', 'wasm/src/abi/a.cpp', '#include "soapfilm.h"\n#include "loops/span.h"'],
     ['a test of the core', 'tests/cpp/a.cpp', '#include "loops/span.h"'],

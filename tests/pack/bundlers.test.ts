@@ -164,7 +164,7 @@ describe('bundlers', () => {
     await writeFile(path.join(consumer.folder, 'index.html'), html);
     const { title, asked } = await visitFolder(consumer.folder);
     expect(title).toBe(kTitle);
-    for (const name of ['core.wasm', 'polygons.wasm']) {
+    for (const name of ['loops.wasm', 'polygons.wasm']) {
       expect(asked).toContain(`/node_modules/soapfilm/wasm/dist/${name}`);
     }
   });

@@ -22,7 +22,7 @@ describe('the tarball', () => {
   test('contents: the built library and its documents, nothing else', () => {
     const strange = consumer.files.filter((file) => !/^wasm\/dist\/[a-z_]+(\.d\.ts|\.js|\.wasm)$/.test(file));
     expect(strange).toEqual(['CHANGELOG.md', 'LICENSE', 'README.md', 'package.json']);
-    for (const name of ['core.wasm', 'polygons.wasm', 'index.js', 'index.d.ts', 'worker.js', 'worker.d.ts']) {
+    for (const name of ['loops.wasm', 'polygons.wasm', 'index.js', 'index.d.ts', 'worker.js', 'worker.d.ts']) {
       expect(consumer.files).toContain(`wasm/dist/${name}`);
     }
   });
@@ -40,13 +40,13 @@ describe('the tarball', () => {
   });
 
   test('are the types wrong: no', async () => {
-    const args = [consumer.tarball, '--profile', 'esm-only', '--exclude-entrypoints', './core.wasm', './polygons.wasm'];
+    const args = [consumer.tarball, '--profile', 'esm-only', '--exclude-entrypoints', './loops.wasm', './polygons.wasm'];
     await executeTool('@arethetypeswrong/cli/dist/index.js', args, repository);
   });
 
   test('size: each part up to 150 KB and the scripts up to 8 KB, gzipped', async () => {
     const dist = path.join(consumer.folder, 'node_modules/soapfilm/wasm/dist');
-    for (const name of ['core.wasm', 'polygons.wasm']) {
+    for (const name of ['loops.wasm', 'polygons.wasm']) {
       const size = gzipSync(await readFile(path.join(dist, name))).length;
       expect(size, name).toBeLessThanOrEqual(150 * 1024);
     }
@@ -122,11 +122,11 @@ describe('in Node', () => {
     expect((await consumer.run('error.mjs', source)).trim()).toBe('true no-loops');
   });
 
-  test('core.wasm, polygons.wasm: are found by name, and load takes their bytes', async () => {
+  test('loops.wasm, polygons.wasm: are found by name, and load takes their bytes', async () => {
     const source = `import { readFile } from 'node:fs/promises';
       import { load, spanLoops, triangulatePolygon } from 'soapfilm'; ${kRings}
       const read = (name) => readFile(new URL(import.meta.resolve(name)));
-      const [core, polygons] = await Promise.all(['soapfilm/core.wasm', 'soapfilm/polygons.wasm'].map(read));
+      const [core, polygons] = await Promise.all(['soapfilm/loops.wasm', 'soapfilm/polygons.wasm'].map(read));
       await load({ wasm: { loops: core, polygons } });
       console.log(spanLoops(loops).triangles.length / 3,
         triangulatePolygon([[[0, 0], [1, 0], [1, 1], [0, 1]]]).triangles.length / 3);`;

@@ -25,10 +25,10 @@ test('the core: its part for loops at first, that for polygons once their mode i
     if (name !== undefined) parts.push(name);
   });
   await openPage(page);
-  expect(parts).toEqual(['core']);
+  expect(parts).toEqual(['loops']);
   for (const mode of ['Polygon', 'Film', 'Polygon']) {
     await page.getByRole('button', { name: mode, exact: true }).click();
     if (mode === 'Polygon') await page.waitForFunction(() => window.__polygons?.triangulated);
   }
-  expect(parts).toEqual(['core', 'polygons']);
+  expect(parts).toEqual(['loops', 'polygons']);
 });

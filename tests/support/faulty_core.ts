@@ -1,4 +1,4 @@
-// A stand-in for core.wasm that misbehaves on request, to see how the library takes it.
+// A stand-in for loops.wasm that misbehaves on request, to see how the library takes it.
 import wabt from 'wabt';
 
 /** What a call does; passed as the area weight. */

@@ -52,7 +52,7 @@ afterAll(() => {
 });
 
 const wasm = () => ({
-  loops: new URL(`${address}/core.wasm`),
+  loops: new URL(`${address}/loops.wasm`),
   polygons: new URL(`${address}/polygons.wasm`),
 });
 
@@ -64,7 +64,7 @@ describe('load', () => {
     ['a part that is not in an array', { parts: 'loops' }, '`parts` must be one of'],
     ['a misspelt option', { part: ['loops'] }, '`part` is not an option'],
     ['a source for no part', { wasm: { loops: 'x', polygon: 'y' } }, '`wasm.polygon` is not an option'],
-    ['text', 'core.wasm', 'must be an object'],
+    ['text', 'loops.wasm', 'must be an object'],
   ];
   test.each(bad)('%s: bad-option, and nothing is loaded', async (_, options, message) => {
     for (const call of [load, createWorker]) {
@@ -77,7 +77,7 @@ describe('load', () => {
 
   test('one part: is fetched, and its functions work; the others say which part they need', async () => {
     await load({ parts: ['loops'], wasm: wasm() });
-    expect(asked).toEqual(['core.wasm']);
+    expect(asked).toEqual(['loops.wasm']);
     expect(spanLoops(kLoops)).toMatchObject({ found: true, optimal: true });
     for (const [, call] of onPolygons) {
       const error = errorOf(call);

@@ -262,12 +262,12 @@ describe('sources', () => {
     expect(await spanInThread('soapfilm', source, text())).toBe(true);
   });
 
-  test('core.wasm and polygons.wasm are missing: the copies within the scripts take their place', async () => {
-    const dist = path.dirname(createRequire(import.meta.url).resolve('soapfilm/core.wasm'));
+  test('loops.wasm and polygons.wasm are missing: the copies within the scripts take their place', async () => {
+    const dist = path.dirname(createRequire(import.meta.url).resolve('soapfilm/loops.wasm'));
     const copy = await mkdtemp(path.join(tmpdir(), 'soapfilm-'));
     try {
       await cp(dist, copy, { recursive: true });
-      for (const name of ['core.wasm', 'polygons.wasm']) await rm(path.join(copy, name));
+      for (const name of ['loops.wasm', 'polygons.wasm']) await rm(path.join(copy, name));
       await writeFile(path.join(copy, 'package.json'), '{ "type": "module" }');
       const entry = pathToFileURL(path.join(copy, 'node.js')).href;
       expect(await spanInThread(entry, 'undefined')).toBe(true);

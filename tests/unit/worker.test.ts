@@ -152,11 +152,11 @@ test('createWorker: needs no load, and keeps no process alive', async () => {
 });
 
 test('createWorker: works without the files of the core and the worker', async () => {
-  const dist = path.dirname(createRequire(import.meta.url).resolve('soapfilm/core.wasm'));
+  const dist = path.dirname(createRequire(import.meta.url).resolve('soapfilm/loops.wasm'));
   const copy = await mkdtemp(path.join(tmpdir(), 'soapfilm-'));
   try {
     await cp(dist, copy, { recursive: true });
-    for (const name of ['core.wasm', 'polygons.wasm', 'worker_thread.js', 'worker_thread_node.js']) {
+    for (const name of ['loops.wasm', 'polygons.wasm', 'worker_thread.js', 'worker_thread_node.js']) {
       await rm(path.join(copy, name));
     }
     await writeFile(path.join(copy, 'package.json'), '{ "type": "module" }');

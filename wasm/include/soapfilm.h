@@ -1,6 +1,6 @@
 // The C ABI of soapfilm's core: what the TypeScript runtime calls, and what native tests call.
 // Plain pointers and counts; nothing throws, every call checks its input. sf_span_loops is exported
-// by core.wasm, functions for polygons by polygons.wasm, memory and result arrays by both.
+// by loops.wasm, functions for polygons by polygons.wasm, memory and result arrays by both.
 #ifndef SOAPFILM_H
 #define SOAPFILM_H
 #include <stddef.h>

@@ -1,5 +1,5 @@
 // npm run build [core | library | page]: builds what has changed, all of it without an argument.
-//   core     wasm/src → core.wasm, polygons.wasm
+//   core     wasm/src → loops.wasm, polygons.wasm
 //   library  core, and wasm/ts → the package in wasm/dist
 //   page     library, and web → the static page in web/dist
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
@@ -11,7 +11,7 @@ import { checkNode, emscriptenEnvironment, ensureNodeModules, ensureTools } from
 
 const dist = path.join(root, 'wasm/dist');
 /** The core's parts, each a CMake target. */
-const modules = ['core.wasm', 'polygons.wasm'];
+const modules = ['loops.wasm', 'polygons.wasm'];
 const built = modules.map((name) => `wasm/dist/${name}`);
 const scripts = ['wasm/scripts/build.mjs'];
 const packages = ['package.json', 'package-lock.json'];
@@ -89,7 +89,7 @@ export async function buildLibrary() {
 /**
  * Scripts that run by themselves, and files turned into modules:
  * worker_thread*.js, bundled so that a thread needs no other file;
- * core_inline.js and the like, core.wasm in base64; any other *_inline.js, that script as text.
+ * loops_inline.js and the like, loops.wasm in base64; any other *_inline.js, that script as text.
  */
 async function generateModules(folder) {
   const { build } = await import('esbuild');

@@ -80,6 +80,20 @@ export async function doctest(program, { seconds = 900, args = [] } = {}) {
   return result(passed.length, failed.length + (crashed ? 1 : 0), told + tail, notes);
 }
 
+/** All doctest programs in a build tree, one after the other. */
+export async function cppTests(folder) {
+  const sum = result(1, 0);
+  sum.passed = 0;
+  for (const name of readdirSync(folder).filter((file) => /^test_[a-z_.]+$/.test(file)).sort()) {
+    const { passed, failed, output, notes } = await doctest(path.join(folder, name));
+    sum.passed += passed;
+    sum.failed += failed;
+    sum.output += output;
+    sum.notes.push(...notes);
+  }
+  return sum;
+}
+
 function describeDoctestCase(text) {
   const plain = (s) => s.replace(/&lt;/g, '<').replace(/&gt;/g, '>').replace(/&quot;/g, '"').replace(/&amp;/g, '&');
   const attribute = (name) => plain(new RegExp(`${name}="([^"]*)"`).exec(text)?.[1] ?? '?');

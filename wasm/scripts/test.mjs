@@ -3,7 +3,7 @@
 import path from 'node:path';
 import { buildLibrary, buildPage, buildPreset } from './build.mjs';
 import { Failure, buildRoot, main, say } from './run.mjs';
-import { Summary, clangFormat, doctest, eslint, fuzz, playwright, typecheck, vitest } from './suites.mjs';
+import { Summary, clangFormat, cppTests, eslint, fuzz, playwright, typecheck, vitest } from './suites.mjs';
 import { checkNode, ensureNodeModules, ensureTools } from './tools.mjs';
 
 const kLint = ['typecheck', 'eslint', 'format', 'layering'];
@@ -68,9 +68,8 @@ await main(async () => {
   }
 
   say('');
-  const native = path.join(buildRoot, 'native/soapfilm_tests');
   await Promise.all([
-    suite('cpp', 'C++ tests with sanitizers', 'C++ test program', () => doctest(native)),
+    suite('cpp', 'C++ tests with sanitizers', 'C++ test program', () => cppTests(path.join(buildRoot, 'native'))),
     (async () => {
       await suite('typecheck', 'types of the library', null, () => typecheck('wasm/tsconfig.json'));
       await suite('typecheck', 'types of the page', 'library', () => typecheck('web/tsconfig.json'));

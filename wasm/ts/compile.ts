@@ -12,8 +12,8 @@ const kFiles: Readonly<
   Record<Part, { file: () => URL; copy: () => Promise<{ readonly default: string }> }>
 > = {
   loops: {
-    file: () => new URL('./core.wasm', import.meta.url),
-    copy: () => import('./core_inline.js'),
+    file: () => new URL('./loops.wasm', import.meta.url),
+    copy: () => import('./loops_inline.js'),
   },
   polygons: {
     file: () => new URL('./polygons.wasm', import.meta.url),

@@ -319,7 +319,7 @@ export interface GeoJSONTriangulation extends PolygonsTriangulation {
 }
 
 /**
- * What can be loaded by itself: `'loops'`, for `spanLoops`, is `core.wasm`; `'polygons'`, for
+ * What can be loaded by itself: `'loops'`, for `spanLoops`, is `loops.wasm`; `'polygons'`, for
  * `triangulatePolygon`, `triangulatePolygons`, `triangulateGeoJSON` and `PolygonSession`, is
  * `polygons.wasm`.
  */

@@ -1,6 +1,6 @@
 // Fuzzes sequences of edits of a session: it stays certified, with triangles and strips of a polygon
 // that flooding accepts as well, and a refused edit leaves the polygon as it was.
-#include "polygon/session.h"
+#include "polygon/session/session.h"
 #include "fuzz/polygon_input.h"
 
 using namespace sffuzz;

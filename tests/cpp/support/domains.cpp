@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "loops/lower_bound.h"
+#include "loops/domains/lower_bound.h"
 
 using namespace sf;
 

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "loops/domain.h"
-#include "loops/pass.h"
+#include "loops/domains/domain.h"
+#include "loops/domains/pass.h"
 #include "support/generators.h"
 
 namespace sftest {

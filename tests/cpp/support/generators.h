@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "loops/loop_set.h"
+#include "loops/problem/loop_set.h"
 
 namespace sftest {
 

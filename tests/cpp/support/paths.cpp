@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "loops/exact_solver.h"
-#include "loops/fan_bound.h"
-#include "loops/polygon_solver.h"
-#include "loops/relaxed_bound.h"
+#include "loops/bounds/fan_bound.h"
+#include "loops/bounds/relaxed_bound.h"
+#include "loops/bounds/two_loop_bound.h"
+#include "loops/domains/exact_solver.h"
+#include "loops/one_loop/polygon_solver.h"
 #include "loops/solver.h"
-#include "loops/two_loop_bound.h"
 
 namespace sftest {
 namespace {
@@ -117,7 +117,7 @@ bool runPass(Posed& posed, const std::vector<double>& cost, sf::Measure measure,
              PassSolver solver, Optimum& optimum) {
   sf::SegmentTable segments;
   if (!segments.compute(posed.loops, posed.set, cost, measure, posed.work)) return false;
-  return solver({posed.loops, posed.set, cost, measure, segments, posed.work}, root, optimum);
+  return solver({{posed.loops, posed.set, cost, measure, posed.work}, segments}, root, optimum);
 }
 
 /// Sum: one pass. Worst angle: that first, then the sum under it.

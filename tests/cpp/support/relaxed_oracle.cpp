@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "loops/lower_bound.h"
+#include "loops/domains/lower_bound.h"
 
 namespace sftest {
 

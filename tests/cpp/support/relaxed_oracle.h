@@ -4,8 +4,8 @@
 #include <map>
 #include <vector>
 
-#include "loops/domain.h"
-#include "loops/pass.h"
+#include "loops/domains/domain.h"
+#include "loops/domains/pass.h"
 
 namespace sftest {
 

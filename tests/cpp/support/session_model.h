@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "polygon/session.h"
+#include "polygon/session/session.h"
 #include "support/polygon_oracle.h"
 
 namespace sftest {

@@ -1,6 +1,6 @@
 // What each node of a polygon sees to its left and right, found by looking at every edge.
 #pragma once
-#include "polygon/sweep.h"
+#include "polygon/sweep/sweep.h"
 #include "support/polygon_generators.h"
 
 namespace sftest {

@@ -7,8 +7,8 @@
 #include "abi/host_work.h"
 #include "abi/result.h"
 #include "base/charge.h"
-#include "polygon/fault_point.h"
-#include "polygon/plane.h"
+#include "polygon/input/fault_point.h"
+#include "polygon/input/plane.h"
 #include "polygon/triangulate.h"
 
 namespace {

@@ -4,7 +4,7 @@
 
 #include "abi/host_work.h"
 #include "abi/result.h"
-#include "polygon/session.h"
+#include "polygon/session/session.h"
 
 namespace {
 

@@ -12,7 +12,7 @@ sf::Outcome checkStarts(const uint32_t* starts, uint32_t loopCount) {
   if (starts[0] != 0) return {sf::Status::BadStarts, 0};
   for (uint32_t c = 0; c < loopCount; ++c)
     if (starts[c + 1] < starts[c]) return {sf::Status::BadStarts, c};
-  // Vertex numbers share words with flags (loops/domain.h).
+  // Vertex numbers share words with flags (loops/domains/domain.h).
   if (starts[loopCount] >= 1u << 30) return {sf::Status::TooLarge};
   return {};
 }

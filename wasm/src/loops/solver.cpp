@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "base/sort.h"
-#include "loops/fan_bound.h"
-#include "loops/fan_filter.h"
-#include "loops/lower_bound.h"
+#include "loops/bounds/fan_bound.h"
+#include "loops/bounds/fan_filter.h"
+#include "loops/domains/lower_bound.h"
 
 namespace sf {
 namespace {

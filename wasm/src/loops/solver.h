@@ -3,10 +3,10 @@
 #pragma once
 #include <cstdint>
 
-#include "loops/candidate_set.h"
-#include "loops/exact_solver.h"
-#include "loops/span.h"
-#include "loops/surface_search.h"
+#include "loops/domains/exact_solver.h"
+#include "loops/problem/candidate_set.h"
+#include "loops/problem/objective.h"
+#include "loops/search/surface_search.h"
 
 namespace sf {
 

@@ -8,12 +8,12 @@
 #include "base/predicates.h"
 #include "base/sort.h"
 #include "delaunay/delaunay.h"
-#include "loops/candidate_set.h"
-#include "loops/edge_protection.h"
-#include "loops/loop_check.h"
-#include "loops/near_space.h"
-#include "loops/polygon_solver.h"
+#include "loops/one_loop/polygon_solver.h"
+#include "loops/problem/candidate_set.h"
+#include "loops/problem/loop_check.h"
 #include "loops/solver.h"
+#include "loops/spaces/edge_protection.h"
+#include "loops/spaces/near_space.h"
 
 namespace sf {
 namespace {

@@ -6,12 +6,13 @@
 
 #include "base/status.h"
 #include "base/work.h"
-#include "loops/loop_set.h"
+#include "loops/problem/loop_set.h"
+#include "loops/problem/objective.h"
+#include "loops/spaces/edge_protection.h"
 
 namespace sf {
 
 enum class Space : int32_t { Auto = 0, All = 1, Delaunay = 2, Near = 3, Given = 4 };
-enum class Objective : int32_t { Sum = 0, WorstDihedral = 1 };
 
 struct Span;
 
@@ -42,13 +43,6 @@ struct SpanTerms {
   double dihedral = 0;       // sum over interior edges, and boundary edges with a face given
   double worstDihedral = 0;  // the largest of those angles, 0 if there is none
   double own = 0;            // sum of the candidates' own weights
-};
-
-/// A vertex that edge protection put on a loop edge.
-struct InsertedVertex {
-  uint32_t loop;     // input loop
-  uint32_t edge;     // edge from vertex `edge` of that loop to the next, counted in the input loop
-  double parameter;  // 0 to 1 along that edge
 };
 
 struct Span {

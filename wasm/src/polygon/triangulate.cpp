@@ -1,15 +1,15 @@
 #include "polygon/triangulate.h"
 
 #include "base/charge.h"
-#include "polygon/certificate.h"
-#include "polygon/complement.h"
-#include "polygon/constrained_delaunay.h"
-#include "polygon/flood.h"
-#include "polygon/link_rings.h"
-#include "polygon/repair.h"
-#include "polygon/strips.h"
-#include "polygon/sweep.h"
-#include "polygon/trapezoidation.h"
+#include "polygon/fill/certificate.h"
+#include "polygon/fill/constrained_delaunay.h"
+#include "polygon/fill/flood.h"
+#include "polygon/fill/trapezoidation.h"
+#include "polygon/repair/repair.h"
+#include "polygon/strips/strips.h"
+#include "polygon/sweep/complement.h"
+#include "polygon/sweep/link_rings.h"
+#include "polygon/sweep/sweep.h"
 
 namespace sf {
 namespace {

@@ -1,0 +1,103 @@
+// A good surface over several loops, fast and without a proof: by cutting along bridges.
+// Source: none in Zou, Ju, Carr 2013; large neighbourhood search (Shaw 1998) over the paper's own
+// easy case, one polygon.
+//
+// A surface over k loops has edges that join different loops, its *bridges*. Cut along k - 1 of them
+// that make the loops a tree, it becomes a disc whose boundary is one polygon, with the ends of the
+// bridges repeated, and that polygon is solved in near-linear time: the best of all surfaces with
+// these bridges. So any tree of bridges gives a first surface, if there is one with them, and a
+// surface is improved by cutting it along others of its own bridges, now and then along one or two
+// fewer, so that two or three loops are solved for at once. What is left out, the angles across the
+// bridges, is charged by what stands across them now.
+#pragma once
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/charge.h"
+#include "loops/search/bridge_cut.h"
+
+namespace sf {
+
+/// Is told of every surface that is better than the one before.
+class SurfaceListener {
+ public:
+  virtual ~SurfaceListener() = default;
+  /// The triangles, in numbers of the candidate set.
+  virtual void better(const SplitOrder& order) = 0;
+};
+
+/// The best surface of a pass so far.
+class Incumbent {
+ public:
+  Incumbent(Measure measure, SurfaceListener* listener) : measure_(measure), listener_(listener) {}
+
+  /// Takes a valid surface if it is better.
+  void offer(SplitOrder order, double cost) {
+    if (!(cost < kInfinity) || !measure_.improves(cost, cost_)) return;
+    cost_ = cost;
+    order_ = std::move(order);
+    if (listener_) listener_->better(order_);
+  }
+  /// Infinity while there is none.
+  double cost() const { return cost_; }
+  const SplitOrder& order() const { return order_; }
+
+ private:
+  Measure measure_;
+  SurfaceListener* listener_;
+  double cost_ = kInfinity;
+  SplitOrder order_;
+};
+
+class SurfaceSearch {
+ public:
+  /// For several loops. O(c log c) time, some 100 bytes a candidate.
+  SurfaceSearch(const Task& task, Incumbent& best);
+
+  /// Begins from the bridges that are edges of these triangles: of an earlier answer to loops that
+  /// have been edited, say. [3m] vertices; those that are no candidates any more do no harm.
+  bool startFrom(ArrayView<const uint32_t> triangles);
+
+  /// Up to `tries` cuts, each about as expensive as one polygon of n + 2k - 2 vertices; fewer after
+  /// many in a row without success. False when the work ended.
+  bool search(uint32_t tries);
+
+ private:
+  static constexpr uint32_t kMostIdle = 200;
+
+  struct Bridge {
+    double key;
+    uint32_t edge;
+  };
+  class Forest;
+
+  double random();
+  void keepNear();
+  /// What the triangles cost together; false, with the edges at fault, if they are no surface.
+  bool measureSurface(const SplitOrder& order, double& cost, std::vector<uint32_t>& badEdges) const;
+  /// Edges that make the loops a tree, or `trees` trees, the earlier in the list the rather. Empty if
+  /// they do not suffice. Increasing.
+  std::vector<uint32_t> chooseBridges(std::vector<Bridge>& byKey, uint32_t trees) const;
+  /// A cut along random bridges, which need not be in any surface.
+  ///   preferred  edges to be taken first, increasing
+  BridgeCut cutAtRandom(const std::vector<uint32_t>& preferred);
+  void joinLoop(std::vector<uint32_t>& polygon, uint32_t at, uint32_t v);
+  /// A cut of the best surface that leaves `loops` loops.
+  BridgeCut cutBest(uint32_t loops);
+  bool solveCut(const BridgeCut& cut, uint64_t maxSplits);
+  void lookAtBest();
+
+  const Task& task_;
+  Incumbent& best_;
+  Charge memory_;
+  std::vector<uint32_t> kept_;     // triangles that are looked at
+  std::vector<Bridge> bridges_;    // edges between loops
+  std::vector<double> leastPair_;  // [slots]
+  double costOfUses_ = kInfinity;  // of the surface that uses_ is of
+  std::vector<EdgeUse> uses_;      // edges of the best surface
+  uint64_t seed_ = 1;
+  uint32_t idle_ = 0;
+};
+
+}  // namespace sf

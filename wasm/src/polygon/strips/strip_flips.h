@@ -1,0 +1,53 @@
+// Flips of edges after which the triangles need fewer strips and swaps.
+//
+// Source: Kumar, sec. 4.1: triangles are made so that strips are long.
+// Differs: the paper's come from the order in which one uni-monotone polygon is cut up; a comb's
+// or a star's tooth is a strip's end whatever that order is. Which of two triangles' diagonals is
+// better for strips shows only over all polygons, and there it is exact: the least index count
+// along a spanning forest (strip_forest.h) before and after a flip, of which few terms change.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "base/work.h"
+#include "polygon/strips/strip_forest.h"
+#include "triangles/triangle_mesh.h"
+
+namespace sf {
+
+class StripFlips {
+ public:
+  /// Flips edges of the forest while that saves indices and no triangle gets much thinner than
+  /// both were before. False when the work ended. O(m) time, if a flip's effect ends near it, as
+  /// all but few do; effects that reach far are not looked at.
+  bool run(TriangleMesh& mesh, Work& work);
+  /// What strips along the forest cost then, in the unit of StripCosts.
+  int64_t cost() const { return forest_.total(); }
+
+ private:
+  /// An edge of the forest and what flipping it comes to.
+  struct Flip {
+    uint32_t edge;         // half-edge of the lower triangle
+    uint32_t upper;        // number of the triangle that is the upper one afterwards
+    StripCosts low, high;  // afterwards
+    int saved;             // in the unit of StripCosts
+  };
+
+  bool tryFlip(uint32_t t);
+  bool isFair(uint32_t h) const;
+  bool foresee(uint32_t h, Flip& flip);
+  int changeAbove(uint32_t t, StripCosts costs);
+  void carryOut(const Flip& flip);
+
+  TriangleMesh* mesh_ = nullptr;
+  double thinner_ = 1;
+  StripForest forest_;
+  struct Change {
+    uint32_t triangle;
+    StripCosts costs;
+  };
+  std::vector<Change> above_;      // what the flip looked at changes further up
+  std::vector<uint32_t> waiting_;  // triangles whose edge upwards is to be looked at
+};
+
+}  // namespace sf
