@@ -10,7 +10,8 @@ const kCore: Readonly<Partial<Record<string, readonly string[]>>> = (() => {
   const problem = [...base, 'delaunay', 'loops/problem'];
   const domains = [...problem, 'loops/one_loop', 'loops/domains'];
   const bounds = [...domains, 'loops/bounds'];
-  const loops = [...bounds, 'loops/spaces', 'loops/search', 'loops'];
+  const spaces = [...problem, 'loops/spaces'];
+  const loops = [...bounds, ...spaces, 'loops/search', 'loops/answer', 'loops'];
   const sweep = [...triangles, 'polygon/input', 'polygon/strips', 'polygon/sweep'];
   const fill = [...sweep, 'polygon/fill'];
   const polygon = [...fill, 'polygon/session', 'polygon/repair', 'polygon'];
@@ -20,7 +21,8 @@ const kCore: Readonly<Partial<Record<string, readonly string[]>>> = (() => {
     triangles: base,
     'loops/problem': problem,
     'loops/one_loop': problem,
-    'loops/spaces': problem,
+    'loops/spaces': spaces,
+    'loops/answer': spaces,
     'loops/domains': domains,
     'loops/bounds': domains,
     'loops/search': bounds,

@@ -110,6 +110,7 @@ sf::SpanOptions Problem::view() const {
   viewed.boundaryNormals = normals;
   viewed.triangles = triangles;
   viewed.triangleWeights = triangleWeights;
+  viewed.start = start;
   return viewed;
 }
 

@@ -15,6 +15,7 @@ struct Problem {
   std::vector<double> normals;          // [3n] or empty
   std::vector<uint32_t> triangles;      // [3c] for Space::Given
   std::vector<double> triangleWeights;  // [c] or empty
+  std::vector<uint32_t> start;          // [3s] triangles to begin from, or empty
 
   sf::SpanOptions view() const;
   uint32_t vertexCount() const;
@@ -48,7 +49,7 @@ const char* nameOf(Shape shape);
 Curves loopsOf(Shape shape, const std::vector<uint32_t>& sizes, Random& random);
 
 /// Weights by name: area, perimeter, dihedral, mixed, default, worst, worst mixed.
-constexpr int kWeightings = 7;
+constexpr int kWeightings = 7, kDefaultWeights = 4;
 const char* setWeights(int which, const Curves& curves, sf::SpanOptions& options);
 
 /// Normals of faces across about `share` of the loop edges.

@@ -212,17 +212,23 @@ Curve noisyCircle(uint32_t n, double noise, Random& random) {
 }
 
 Curves meshLoops(uint32_t levels, uint32_t count, uint32_t faces, Random& random) {
+  return meshRims(levels, std::vector<uint32_t>(count, faces), random);
+}
+
+Curves meshRims(uint32_t levels, const std::vector<uint32_t>& faces, Random& random) {
   Mesh mesh = icosphere(levels);
   Curves curves;
   std::set<uint32_t> taken;
   uint32_t faceCount = uint32_t(mesh.faces.size() / 3);
-  for (uint32_t attempt = 0; curves.size() < count && attempt < 50 * count; ++attempt) {
+  for (uint32_t attempt = 0; curves.size() < faces.size() && attempt < 50 * faces.size();
+       ++attempt) {
+    const uint32_t wanted = faces[curves.size()];
     Disc disc(mesh, taken);
     if (!disc.start(random.below(faceCount))) continue;
     uint32_t grown = 1;
-    for (uint32_t tries = 0; grown < faces && tries < 20 * faces; ++tries)
+    for (uint32_t tries = 0; grown < wanted && tries < 20 * wanted; ++tries)
       grown += disc.grow(random.below(uint32_t(disc.rim().size())));
-    if (grown < faces) continue;
+    if (grown < wanted) continue;
     Curve curve;
     for (uint32_t v : disc.rim()) curve.push_back(mesh.positions[v]);
     curves.push_back(curve);

@@ -57,6 +57,8 @@ Curve noisyCircle(uint32_t n, double noise, Random& random);
 /// Disjoint simple loops along edges of a sphere's mesh (an icosahedron divided `levels` times):
 /// the rims of `count` random discs of `faces` faces each. Fewer than asked for if none fits.
 Curves meshLoops(uint32_t levels, uint32_t count, uint32_t faces, Random& random);
+/// The same with faces[c] faces for disc c.
+Curves meshRims(uint32_t levels, const std::vector<uint32_t>& faces, Random& random);
 
 /// The curves of a file in the .curve format; empty if it cannot be read.
 Curves readCurves(const std::string& path);

@@ -245,7 +245,8 @@ PathAnswer solveAsChosen(const Problem& problem, uint64_t firstSplits, bool anyt
   options.objective = problem.options.objective;
   options.anytime = anytime;
   options.firstSplits = firstSplits;
-  options.start = start;
+  const sf::LoopTriangles begin(posed.loops, start);
+  options.start = &begin;
   sf::Surface surface;
   PathAnswer answer;
   if (!sf::solveSurface(posed.loops, posed.set, options, posed.work, surface))

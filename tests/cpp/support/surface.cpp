@@ -28,7 +28,14 @@ Triple sorted(uint32_t a, uint32_t b, uint32_t c) {
   return t;
 }
 
-Vec3 normalOf(Vec3 a, Vec3 b, Vec3 c) { return cross(b - a, c - a); }
+/// Thin triangles, as along aligned loops, have no right digit left in doubles.
+Vec3 normalOf(Vec3 a, Vec3 b, Vec3 c) {
+  __extension__ using Wide = __float128;
+  const Wide u[3] = {Wide(b.x) - a.x, Wide(b.y) - a.y, Wide(b.z) - a.z};
+  const Wide w[3] = {Wide(c.x) - a.x, Wide(c.y) - a.y, Wide(c.z) - a.z};
+  return {double(u[1] * w[2] - u[2] * w[1]), double(u[2] * w[0] - u[0] * w[2]),
+          double(u[0] * w[1] - u[1] * w[0])};
+}
 
 /// Scaled so that its products neither overflow nor vanish.
 Vec3 scaled(Vec3 v) {

@@ -15,7 +15,7 @@ namespace sf {
 /// Called about every millisecond of work. Returns true to go on, false to stop.
 ///   fraction    0 to 1, share of the work done; never falls during one call
 ///   bestCost    cost of the best surface so far, +infinity while there is none
-///   lowerBound  proven lower bound on the optimum, 0 at first
+///   lowerBound  proven lower bound on the optimum; 0 at first, less where triangles have negative weights
 using ProgressFunction = bool (*)(void* user, double fraction, double bestCost, double lowerBound);
 
 class Work {
@@ -44,9 +44,10 @@ class Work {
   }
   /// The part of the whole work that begins now: the phases that follow lie inside [a, b] of it.
   /// What was known of costs is forgotten; those of this part are told times 2^costExponent.
-  void beginPart(double a, double b, int costExponent) {
+  ///   lowerBound  proven from the start
+  void beginPart(double a, double b, int costExponent, double lowerBound = 0) {
     partStart_ = a, partEnd_ = b, costExponent_ = costExponent;
-    setBounds(std::numeric_limits<double>::infinity(), 0);
+    best_ = std::numeric_limits<double>::infinity(), lower_ = lowerBound;
     phase(0, 1);
   }
   /// The phase that begins now, of the current part: `setFraction(0..1)` is inside [a, b] of it.
@@ -59,7 +60,11 @@ class Work {
     double f = phaseStart_ + (phaseEnd_ - phaseStart_) * inPhase;
     if (f > fraction_) fraction_ = f < 1 ? f : 1;
   }
-  void setBounds(double bestCost, double lowerBound) { best_ = bestCost, lower_ = lowerBound; }
+  /// What is known now of the part: the lower bound never falls.
+  void setBounds(double bestCost, double lowerBound) {
+    best_ = bestCost;
+    if (lowerBound > lower_) lower_ = lowerBound;
+  }
 
   bool going() const { return status_ == Status::Ok; }
   Status status() const { return status_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "base/sort.h"
 #include "loops/bounds/fan_bound.h"
@@ -30,11 +31,29 @@ constexpr uint32_t kTriesPerRound = 24;
 /// Sums in another order differ in the last digits.
 double withRounding(double cost) { return cost + 1e-9 * std::fabs(cost); }
 
+/// What the costs of triangles alone prove: a surface has n + 2k - 4 of them, and angles cost nothing at
+/// least. Infinity if so many are not allowed.
+double boundOfCosts(const Task& task) {
+  if (task.measure.isWorst()) return 0;
+  std::vector<double> costs;
+  for (const double cost : task.triangleCost)
+    if (cost < kInfinity) costs.push_back(cost);
+  const size_t count = size_t(task.loops.vertexCount()) + 2 * size_t(task.loops.loopCount()) - 4;
+  if (costs.size() < count) return kInfinity;
+  std::nth_element(costs.begin(), costs.begin() + std::ptrdiff_t(count), costs.end());
+  return std::accumulate(costs.begin(), costs.begin() + std::ptrdiff_t(count), 0.0);
+}
+
 /// Solves one pass: keeps the best surface and the bound as they get better.
 class PassSolver {
  public:
   PassSolver(const Task& task, const SolveOptions& options, Surface& surface)
-      : task_(task), options_(options), surface_(surface), best_(task.measure, options.listener) {}
+      : task_(task),
+        options_(options),
+        surface_(surface),
+        lowerBound_(boundOfCosts(task)),
+        best_(task.measure, options.listener, task.isObjective ? lowerBound_ : surface.lowerBound) {
+  }
 
   /// Looks for the optimum, from fraction `from` to `to` of the work. False when the work ended.
   bool run(double from, double to);
@@ -53,16 +72,17 @@ class PassSolver {
   bool solveBetter(const FanBound& fans, uint64_t maxSplits, bool& solved);
   void raise(double lowerBound) {
     lowerBound_ = std::max(lowerBound_, std::min(lowerBound, best_.cost()));
+    if (task_.isObjective) best_.raise(lowerBound_);
     task_.tell(best_.cost(), lowerBound_);
   }
 
   const Task& task_;
   const SolveOptions& options_;
   Surface& surface_;  // where domains are counted
+  double lowerBound_;
   Incumbent best_;
   std::unique_ptr<SurfaceSearch> search_;
   std::vector<double> leastPair_;
-  double lowerBound_ = -kInfinity;
 };
 
 bool PassSolver::solveByDomains(const Task& task, uint64_t maxSplits, Optimum& optimum) {
@@ -160,7 +180,7 @@ bool PassSolver::solveByFans(uint64_t maxSplits) {
 
 bool PassSolver::beginSearch() {
   search_ = std::make_unique<SurfaceSearch>(task_, best_);
-  return options_.start.empty() || search_->startFrom(options_.start);
+  return !options_.start || options_.start->isEmpty() || search_->startFrom(*options_.start);
 }
 
 bool PassSolver::lookForFirst(uint32_t tries) {
@@ -247,7 +267,7 @@ bool solveSurface(const LoopSet& loops, const CandidateSet& set, const SolveOpti
   const Task worst{loops, set, angle, Measure::worst(), work, true};
   PassSolver first(worst, options, surface);
   const bool worstKnown = first.run(0, 0.5);
-  surface.lowerBound = std::max(0.0, first.lowerBound());
+  surface.lowerBound = first.lowerBound();
   handBack(first, false);
   if (!worstKnown || !surface.found) return worstKnown;
   const double cap = first.best().cost() + kAngleTie;

@@ -23,8 +23,8 @@ struct SolveOptions {
   Objective objective = Objective::Sum;
   /// Whether surfaces on the way are of use: then they are looked for before the optimum is.
   bool anytime = false;
-  /// [3m] vertices of a surface to begin from, or empty; it need not be one any more.
-  ArrayView<const uint32_t> start;
+  /// A surface over the same loops to begin from, which need not be one any more; or null.
+  const LoopTriangles* start = nullptr;
   /// Splits of domains to try first before bounding several loops by their fans, kUnlimited for never,
   /// 0 for what is usual. What it is changes the time, not the result.
   uint64_t firstSplits = 0;

@@ -2,19 +2,14 @@
 // Source: Zou, Ju, Carr 2013, "An algorithm for triangulating multiple 3D polygons".
 #pragma once
 #include <cstdint>
-#include <vector>
 
 #include "base/status.h"
 #include "base/work.h"
+#include "loops/answer/span_answer.h"
 #include "loops/problem/loop_set.h"
 #include "loops/problem/objective.h"
-#include "loops/spaces/edge_protection.h"
 
 namespace sf {
-
-enum class Space : int32_t { Auto = 0, All = 1, Delaunay = 2, Near = 3, Given = 4 };
-
-struct Span;
 
 struct SpanOptions {
   double areaWeight = 0;       // per square unit; NaN: 1e-3 / (bounding-box diagonal)^2
@@ -34,31 +29,6 @@ struct SpanOptions {
   /// With bestSoFar: called with every surface that is better than the one before, or null.
   void (*onBest)(void* user, const Span& best) = nullptr;
   void* user = nullptr;
-};
-
-/// Sums over a surface. Angles in radians between consistently oriented normals.
-struct SpanTerms {
-  double area = 0;           // sum of triangle areas
-  double perimeter = 0;      // sum of triangle perimeters
-  double dihedral = 0;       // sum over interior edges, and boundary edges with a face given
-  double worstDihedral = 0;  // the largest of those angles, 0 if there is none
-  double own = 0;            // sum of the candidates' own weights
-};
-
-struct Span {
-  bool found = false;
-  Space space = Space::All;              // the candidate space that the answer is from
-  std::vector<Vec3> positions;           // [n'] input first, in input order, then inserted vertices
-  std::vector<uint32_t> triangles;       // [3m], m = n' + 2k - 4, consistently wound
-  std::vector<uint32_t> order;           // [m] triangles in the order of splitting
-  std::vector<uint32_t> starts;          // [k+1] of loopVertices
-  std::vector<uint32_t> loopVertices;    // [n'] the loops of the result as indices into positions
-  std::vector<InsertedVertex> inserted;  // [n' - n]
-  SpanTerms terms;
-  double cost = 0;        // what the objective measures: weighted sum, or the largest angle
-  double lowerBound = 0;  // proven; within 1e-10 of the cost when optimal, the same for sums
-  bool optimal = false;   // proven to be the least in `space`
-  uint64_t candidates = 0, domains = 0, minimalSets = 0;
 };
 
 /// Spans the loops with the surface of least cost among all edge- and vertex-manifold, connected,

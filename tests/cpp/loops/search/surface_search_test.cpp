@@ -38,7 +38,8 @@ Prepared prepared(const Curves& curves, double area, double dihedral) {
 class Judge final : public SurfaceListener {
  public:
   explicit Judge(const Prepared& p) : p_(p) {}
-  void better(const SplitOrder& order) override {
+  void better(const SplitOrder& order, double lowerBound) override {
+    CHECK(lowerBound == 0);
     std::vector<uint32_t> triangles;
     for (const uint32_t t : order)
       triangles.insert(triangles.end(), &p_.set.triangles[3 * size_t(t)],
@@ -119,10 +120,10 @@ TEST_CASE("surface search: begins from the bridges of a surface that edits have 
   const Task edited{after.loops, after.set, after.set.weight, Measure::sum(1), work, true};
   Incumbent found(edited.measure, nullptr);
   SurfaceSearch again(edited, found);
-  REQUIRE(again.startFrom(triangles));
+  REQUIRE(again.startFrom({after.loops, triangles}));
   CHECK(found.cost() < 1.3 * best.cost());
   // Whatever it is given, the search only begins there.
   for (uint32_t& v : triangles) v = random.below(32);
-  REQUIRE(again.startFrom(triangles));
+  REQUIRE(again.startFrom({after.loops, triangles}));
   CHECK(found.cost() < 1.3 * best.cost());
 }

@@ -238,6 +238,6 @@ TEST_CASE("near space: the work ends when told to") {
   Work work(size_t(1) << 30, stop, nullptr);
   std::vector<uint32_t> triples;
   std::vector<BridgeTrial> trials;
-  CHECK_FALSE(nearOptimalTriples(loops, weights, {}, work, trials, triples));
+  CHECK_FALSE(nearOptimalTriples(LoopTriangles(loops), weights, work, trials, triples));
   CHECK(work.status() == Status::Stopped);
 }

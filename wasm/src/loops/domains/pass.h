@@ -21,7 +21,7 @@ struct Task {
 
   /// Reports a cost and a bound that are now known.
   void tell(double bestCost, double lowerBound) const {
-    if (isObjective) work.setBounds(bestCost, std::max(0.0, std::min(lowerBound, bestCost)));
+    if (isObjective) work.setBounds(bestCost, std::min(lowerBound, bestCost));
   }
 };
 

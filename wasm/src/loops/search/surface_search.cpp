@@ -234,13 +234,15 @@ bool SurfaceSearch::solveCut(const BridgeCut& cut, uint64_t maxSplits) {
   return true;
 }
 
-bool SurfaceSearch::startFrom(ArrayView<const uint32_t> triangles) {
+bool SurfaceSearch::startFrom(const LoopTriangles& triangles) {
+  SF_ASSERT(&triangles.loops() == &task_.loops);
   if (!task_.work.going()) return false;
   const CandidateSet& set = task_.set;
   std::vector<uint32_t> edges;
-  for (size_t i = 0; i < triangles.size(); i += 3)
+  const ArrayView<const uint32_t> v = triangles.vertices();
+  for (size_t i = 0; i < v.size(); i += 3)
     for (int j = 0; j < 3; ++j) {
-      const uint32_t e = set.edgeBetween(triangles[i + j], triangles[i + (j + 1) % 3]);
+      const uint32_t e = set.edgeBetween(v[i + j], v[i + (j + 1) % 3]);
       if (e != kNone) edges.push_back(e);
     }
   sf::sort(edges.begin(), edges.end());

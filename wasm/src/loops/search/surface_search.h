@@ -10,11 +10,13 @@
 // fewer, so that two or three loops are solved for at once. What is left out, the angles across the
 // bridges, is charged by what stands across them now.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "base/charge.h"
+#include "loops/problem/loop_triangles.h"
 #include "loops/search/bridge_cut.h"
 
 namespace sf {
@@ -23,22 +25,26 @@ namespace sf {
 class SurfaceListener {
  public:
   virtual ~SurfaceListener() = default;
-  /// The triangles, in numbers of the candidate set.
-  virtual void better(const SplitOrder& order) = 0;
+  ///   order       the triangles, in numbers of the candidate set
+  ///   lowerBound  of the objective, proven until now
+  virtual void better(const SplitOrder& order, double lowerBound) = 0;
 };
 
 /// The best surface of a pass so far.
 class Incumbent {
  public:
-  Incumbent(Measure measure, SurfaceListener* listener) : measure_(measure), listener_(listener) {}
+  ///   lowerBound  of the objective, proven; raise() makes it better
+  Incumbent(Measure measure, SurfaceListener* listener, double lowerBound = 0)
+      : measure_(measure), listener_(listener), lowerBound_(lowerBound) {}
 
   /// Takes a valid surface if it is better.
   void offer(SplitOrder order, double cost) {
     if (!(cost < kInfinity) || !measure_.improves(cost, cost_)) return;
     cost_ = cost;
     order_ = std::move(order);
-    if (listener_) listener_->better(order_);
+    if (listener_) listener_->better(order_, std::min(lowerBound_, cost));
   }
+  void raise(double lowerBound) { lowerBound_ = std::max(lowerBound_, lowerBound); }
   /// Infinity while there is none.
   double cost() const { return cost_; }
   const SplitOrder& order() const { return order_; }
@@ -46,6 +52,7 @@ class Incumbent {
  private:
   Measure measure_;
   SurfaceListener* listener_;
+  double lowerBound_;
   double cost_ = kInfinity;
   SplitOrder order_;
 };
@@ -56,8 +63,9 @@ class SurfaceSearch {
   SurfaceSearch(const Task& task, Incumbent& best);
 
   /// Begins from the bridges that are edges of these triangles: of an earlier answer to loops that
-  /// have been edited, say. [3m] vertices; those that are no candidates any more do no harm.
-  bool startFrom(ArrayView<const uint32_t> triangles);
+  /// have been edited, say. What is no candidate any more does no harm.
+  ///   triangles  over the task's loops
+  bool startFrom(const LoopTriangles& triangles);
 
   /// Up to `tries` cuts, each about as expensive as one polygon of n + 2k - 2 vertices; fewer after
   /// many in a row without success. False when the work ended.

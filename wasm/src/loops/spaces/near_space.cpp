@@ -100,12 +100,16 @@ void append(const Corners& corners, const std::vector<PolygonChart::Triangle>& f
 /// Two loops as one polygon, for one bridge after the other.
 class BridgeSearch {
  public:
-  BridgeSearch(const LoopSet& loops, const TriangleWeights& weights, Work& work,
+  BridgeSearch(const LoopTriangles& surface, const TriangleWeights& weights, Work& work,
                std::vector<BridgeTrial>& trials)
-      : loops_(loops), weights_(weights), chart_(loops, weights, work), trials_(trials) {}
+      : surface_(surface),
+        loops_(surface.loops()),
+        weights_(weights),
+        chart_(loops_, weights, work),
+        trials_(trials) {}
 
-  /// Tries bridges of a surface, or if there is none, short ones. Appends what they give.
-  bool run(ArrayView<const uint32_t> surface, std::vector<uint32_t>& triples);
+  /// Tries bridges of the surface, or if there is none, short ones. Appends what they give.
+  bool run(std::vector<uint32_t>& triples);
 
  private:
   bool attempt(const Bridge& bridge);
@@ -113,6 +117,7 @@ class BridgeSearch {
   double angleAtBridge(const Corners& corners,
                        const std::vector<PolygonChart::Triangle>& surface) const;
 
+  const LoopTriangles& surface_;
   const LoopSet& loops_;
   const TriangleWeights& weights_;
   PolygonChart chart_;
@@ -172,7 +177,9 @@ bool BridgeSearch::attempt(const Bridge& bridge) {
 }
 
 /// Bridges among the edges of a surface.
-std::vector<Bridge> bridgesOf(const LoopSet& loops, ArrayView<const uint32_t> surface) {
+std::vector<Bridge> bridgesOf(const LoopTriangles& triangles) {
+  const LoopSet& loops = triangles.loops();
+  const ArrayView<const uint32_t> surface = triangles.vertices();
   // Whether the triangles pass the loops' edges from each vertex to the next.
   bool isForward[2] = {};
   std::vector<std::pair<uint32_t, uint32_t>> edges;
@@ -195,12 +202,12 @@ std::vector<Bridge> bridgesOf(const LoopSet& loops, ArrayView<const uint32_t> su
   return bridges;
 }
 
-bool BridgeSearch::run(ArrayView<const uint32_t> surface, std::vector<uint32_t>& triples) {
+bool BridgeSearch::run(std::vector<uint32_t>& triples) {
   std::vector<uint32_t> byCost;
   const uint32_t count =
       std::clamp(loops_.vertexCount() / kVerticesPerShortBridge, kLeastBridges, kMostBridges);
   for (const Bridge& bridge :
-       surface.empty() ? shortBridges(loops_, count) : bridgesOf(loops_, surface)) {
+       surface_.isEmpty() ? shortBridges(loops_, count) : bridgesOf(surface_)) {
     const auto known = std::find_if(trials_.begin(), trials_.end(), [&](const BridgeTrial& trial) {
       return trial.a == bridge.a && trial.b == bridge.b && trial.forward == bridge.forward;
     });
@@ -260,13 +267,12 @@ bool hasNearOptimalTriples(const LoopSet& loops, const Work& work) {
                                           : std::max(PolygonChart::bytesFor(n), bytesForNecks(n)));
 }
 
-bool nearOptimalTriples(const LoopSet& loops, const TriangleWeights& weights,
-                        ArrayView<const uint32_t> surface, Work& work,
+bool nearOptimalTriples(const LoopTriangles& surface, const TriangleWeights& weights, Work& work,
                         std::vector<BridgeTrial>& trials, std::vector<uint32_t>& triples) {
+  const LoopSet& loops = surface.loops();
   if (loops.loopCount() == 2 && weights.dihedral == 0)
     return plainTriples(loops, weights, work, triples);
-  if (loops.loopCount() == 2)
-    return BridgeSearch(loops, weights, work, trials).run(surface, triples);
+  if (loops.loopCount() == 2) return BridgeSearch(surface, weights, work, trials).run(triples);
   Corners corners;
   walk(loops, weights, 0, true, false, corners);
   PolygonChart chart(loops, weights, work);

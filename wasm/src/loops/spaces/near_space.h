@@ -15,7 +15,7 @@
 
 #include "base/work.h"
 #include "loops/problem/candidate_set.h"
-#include "loops/problem/loop_set.h"
+#include "loops/problem/loop_triangles.h"
 
 namespace sf {
 
@@ -36,13 +36,12 @@ struct BridgeTrial {
 /// and four for each vertex and bridge of two. In any order, perhaps collinear or repeated, as facetTriples
 /// takes them. False when the work ended.
 ///   weights  without own weights
-///   surface  [3m] of two loops, wound alike: the bridges tried are some of its edges. Empty: none is
-///            known, the bridges are short. Not read for one loop or without angles.
+///   surface  of the loops, which are those to span; of two loops, wound alike: the bridges tried are some of
+///            its edges. Empty: none is known, the bridges are short. Not read for one loop or without angles.
 ///   trials   of earlier calls for the same loops and weights, which are not made again; new ones are added
 /// O(n^2) segments of a polygon, each about a third of a microsecond; up to 32 such polygons for two
 /// loops.
-bool nearOptimalTriples(const LoopSet& loops, const TriangleWeights& weights,
-                        ArrayView<const uint32_t> surface, Work& work,
+bool nearOptimalTriples(const LoopTriangles& surface, const TriangleWeights& weights, Work& work,
                         std::vector<BridgeTrial>& trials, std::vector<uint32_t>& triples);
 
 }  // namespace sf

@@ -1,0 +1,39 @@
+// A problem as the solver takes it, and how its numbering leads back to the caller's.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "loops/problem/loop_triangles.h"
+#include "loops/problem/scaled_weights.h"
+#include "loops/spaces/edge_protection.h"
+
+namespace sf {
+
+/// Loops at unit size, perhaps with inserted vertices, numbered loop by loop. The result numbers them
+/// otherwise: the caller's vertices first, in his order, then the inserted ones.
+struct PosedProblem {
+  LoopSet loops;
+  std::vector<uint32_t> resultIndex;     // [n'] number in the result
+  std::vector<double> normals;           // [3n'] of faces across the loops' edges, or empty
+  std::vector<InsertedVertex> inserted;  // [n' - n]
+  std::vector<Vec3> insertedPositions;   // [n' - n] in the caller's units
+
+  /// The triangles of an earlier result that have no vertices but these, as triangles of these loops.
+  ///   triangles  [3m] in the result's numbers
+  LoopTriangles fromResult(ArrayView<const uint32_t> triangles) const;
+  /// A surface over these loops as one over the caller's: each inserted vertex becomes the end of its
+  /// edge that it is nearer to, and triangles that have no area left are dropped.
+  ///   triangles  [3m] in the result's numbers
+  ///   input      the caller's loops, at any size
+  LoopTriangles ontoInput(ArrayView<const uint32_t> triangles, const LoopSet& input) const;
+};
+
+/// The caller's loops as they are.
+///   normals  [3n] or empty
+PosedProblem posedAsGiven(const LoopSet& unit, ArrayView<const double> normals);
+
+/// The caller's loops after edge protection; the parts of an edge have the face across the whole edge.
+PosedProblem posedProtected(const LoopSet& unit, ArrayView<const double> normals,
+                            const ScaledWeights& weights, ProtectedLoops protectedLoops);
+
+}  // namespace sf

@@ -1,0 +1,31 @@
+// Triangles over the vertices of one set of loops, and of no other.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "loops/problem/loop_set.h"
+
+namespace sf {
+
+/// Triangles that come with the loops whose vertices they name: a surface to begin from, which may be
+/// outdated, edited, or somebody's guess. Vertices of loops with inserted vertices and of those without
+/// are different numbers. So whoever reads triangles takes the loops from here as well, and triangles
+/// come in only through the constructor, which lets no vertex pass that these loops do not have.
+class LoopTriangles {
+ public:
+  /// No triangles. `loops` has to outlive it.
+  explicit LoopTriangles(const LoopSet& loops) : loops_(&loops) {}
+  /// Those of `triangles` [3m] that have three different vertices of the loops; the others are left out.
+  LoopTriangles(const LoopSet& loops, ArrayView<const uint32_t> triangles);
+
+  const LoopSet& loops() const { return *loops_; }
+  /// [3m] each below loops().vertexCount()
+  ArrayView<const uint32_t> vertices() const { return vertices_; }
+  bool isEmpty() const { return vertices_.empty(); }
+
+ private:
+  const LoopSet* loops_;
+  std::vector<uint32_t> vertices_;
+};
+
+}  // namespace sf
