@@ -1,5 +1,7 @@
 #include "support/hand_runs.h"
 
+#include <doctest/doctest.h>
+
 #include <cmath>
 
 #include "support/surface.h"
@@ -97,6 +99,21 @@ Problem handProblem(Hand kind, uint32_t most, Random& random) {
     for (uint32_t i = 0; i < 30; ++i)
       problem.start.push_back(random.below(problem.vertexCount() + 3));
   return problem;
+}
+
+void expectHandAnswers(Hand kind, uint32_t seed, int count, uint32_t most, uint32_t ticks) {
+  MESSAGE("seed " << seed);
+  Random random(seed);
+  int found = 0;
+  for (int i = 0; i < count; ++i) {
+    const Problem problem = handProblem(kind, most, random);
+    const HandRun run = spanUntil(problem, random.below(4) == 0 ? random.below(ticks) : ticks);
+    found += run.outcome.ok() && run.span.found;
+    INFO(nameOf(kind) << " " << i << "\n" << problem.text());
+    CHECK(run.fault == "");
+  }
+  // Else little was shown.
+  CHECK(found >= count / 2);
 }
 
 }  // namespace sftest

@@ -24,4 +24,8 @@ HandRun spanUntil(const Problem& problem, uint32_t ticks);
 ///   most  about how many vertices at most, sizes drawn log-uniformly
 Problem handProblem(Hand kind, uint32_t most, Random& random);
 
+/// Draws `count` of those problems, ends most of them after `ticks` calls and some sooner, and checks (doctest) that
+/// none is at fault and that at least half of them have a surface.
+void expectHandAnswers(Hand kind, uint32_t seed, int count, uint32_t most, uint32_t ticks);
+
 }  // namespace sftest
