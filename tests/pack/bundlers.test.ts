@@ -83,8 +83,8 @@ async function visit(url: string): Promise<{ title: string; asked: string[] }> {
   const asked: string[] = [];
   page.on('request', (request) => asked.push(new URL(request.url()).pathname));
   try {
-    await page.goto(url);
-    await page.waitForFunction(() => document.title !== '', undefined, { timeout: 30_000 });
+    await page.goto(url, { timeout: 0 });
+    await page.waitForFunction(() => document.title !== '', undefined, { timeout: 0 });
     return { title: await page.title(), asked };
   } finally {
     await page.close();

@@ -63,7 +63,6 @@ export async function cppTests(preset, choice, { isLong = false } = {}) {
     watched: { processor: 1.5 * jobs * (isLong ? kLongProcessorSeconds : kProcessorSeconds) },
     processor: isLong ? kLongProcessorSeconds : kProcessorSeconds,
     env: {
-      ASAN_OPTIONS: 'detect_leaks=1:strict_string_checks=1:detect_stack_use_after_return=1',
       UBSAN_OPTIONS: 'print_stacktrace=1',
       CTEST_OUTPUT_ON_FAILURE: undefined,
     },
