@@ -2,7 +2,7 @@
 // A test's full name is that of its folder and its own, `polygon.repair/repair: a bow tie`.
 import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
-import { buildRoot, jobs, run } from './run.mjs';
+import { Failure, buildRoot, jobs, run } from './run.mjs';
 import { listFiles } from './stamp.mjs';
 import { describeCase, reportFile, result } from './report.mjs';
 
@@ -84,7 +84,9 @@ export async function cppTests(preset, choice, { isLong = false } = {}) {
 
 /** All tests that CTest knows in a build tree. */
 async function knownTests(tree) {
-  const { output } = await run('ctest', ['--test-dir', tree, '--show-only=json-v1'], { capture: true });
+  const args = ['--test-dir', tree, '--show-only=json-v1'];
+  const { code, output } = await run('ctest', args, { capture: true, allowFailure: true });
+  if (code !== 0) throw new Failure(`${output}CTest cannot read the list of tests: has a name one bracket of two in it?`);
   const { tests } = JSON.parse(output.slice(output.indexOf('{')));
   return tests.map(({ name }, i) => ({ name, number: i + 1 }));
 }
