@@ -8,9 +8,9 @@ import { Summary, clangFormat, eslint, fuzz, fuzzers, playwright, typecheck, vit
 import { checkNode, ensureNodeModules, ensureTools } from './tools.mjs';
 
 const kLint = ['typecheck', 'eslint', 'format', 'layering'];
-const kSuites = [...kLint, 'cpp', 'fuzz', 'unit', 'pack', 'page'];
+const kSuites = [...kLint, 'scripts', 'cpp', 'fuzz', 'unit', 'pack', 'page'];
 /** Suites of which words choose a part. */
-const kParted = ['cpp', 'quick', 'fuzz', 'unit', 'pack', 'page', 'layering'];
+const kParted = ['cpp', 'quick', 'fuzz', 'unit', 'pack', 'page'];
 const kHelp = `npm test                            every suite
 npm test -- unit page               these suites: ${kSuites.join(', ')}; \`lint\` is the first four
 npm test -- cpp polygon.repair      the tests of tests/cpp/polygon/repair, with sanitizers
@@ -55,7 +55,7 @@ await main(async () => {
   if (chosenOf('pack', 'page')) tools.push('chromium');
   if (chosen('format')) tools.push('clangFormat');
   const { paths, missing } = await ensureTools([...new Set(tools)]);
-  if (needsLibrary || chosen('layering')) await ensureNodeModules();
+  if (needsLibrary || chosenOf('layering', 'scripts')) await ensureNodeModules();
 
   const summary = new Summary();
   for (const tool of missing) summary.notes.push(`${tool} was not found: its check was LEFT OUT`);
@@ -107,7 +107,8 @@ await main(async () => {
       if (paths.clangFormat) {
         await suite('format', 'clang-format', null, () => clangFormat(paths.clangFormat));
       }
-      await suite('layering', 'layering', null, () => vitest('tests/layering', { words }));
+      await suite('layering', 'layering', null, () => vitest('tests/layering'));
+      await suite('scripts', 'scripts', null, () => vitest('tests/scripts'));
       await suite('unit', 'API in Node', 'library', () => vitest('tests/unit', { words }));
       await suite('pack', 'packed package', 'library', () =>
         vitest('tests/pack', { words, env: { CHROMIUM: paths.chromium } }),
