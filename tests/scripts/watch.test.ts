@@ -13,8 +13,8 @@ interface Limits {
   readonly every?: number;
 }
 interface Scripts {
-  run(command: string, args: string[], options: object): Promise<Outcome>;
-  metered<T>(body: () => Promise<T>): Promise<{ value: T; processor: number }>;
+  readonly run: (command: string, args: string[], options: object) => Promise<Outcome>;
+  readonly metered: <T>(body: () => Promise<T>) => Promise<{ value: T; processor: number }>;
 }
 
 const file = path.resolve(import.meta.dirname, '../../wasm/scripts/run.mjs');

@@ -120,6 +120,8 @@ function outcomeOf(text) {
   if (ran && failed.length === 0 && passed.length > 0) return [name, { passed: passed.length, fault: '' }];
   const isComplete = output.includes('</doctest>');
   const told = failed.map(describeCase).join('') || (cases.length > 0 ? '' : '  No test case was run.\n');
-  const rest = isComplete ? '' : `${output.slice(-20_000)}\n${message && `  ended by: ${message}\n`}`;
+  // What the program wrote beside its report: of a sanitizer, say.
+  const said = output.replace(/<TestCase [^>]*skipped="true"[^>]*>\n?|<\?xml[^>]*>|<doctest [^>]*>|<Options [^>]*>|^\s*\n/gm, '');
+  const rest = isComplete ? '' : `${said.slice(-20_000)}  It was ended in the middle of this, by a crash or a limit of processor time${message && `: ${message}`}.\n`;
   return [name, { passed: passed.length, fault: told + rest }];
 }
