@@ -2,21 +2,34 @@ import { changedShare, drawCircle, expect, expectSpans, hasCurves, openEmpty, op
 
 test('first visit: an example is spanned and grows in triangle by triangle', async ({ quietPage: page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
+  // The page's time goes by in steps of this test, however long it waits for the surface.
+  await page.clock.install({ time: 0 });
+  await page.clock.pauseAt(1000);
   await page.goto('?aa=0&dpr=1');
-  await expect.poll(async () => (await stateOf(page)).isGrowing, { intervals: [30] }).toBe(true);
+  const grows = async (): Promise<boolean> => {
+    await page.clock.runFor(50);
+    return (await stateOf(page)).isGrowing;
+  };
+  await expect.poll(grows, { intervals: [30] }).toBe(true);
   expectSpans((await spanned(page)).span, 2);
-  await expect.poll(async () => (await stateOf(page)).isGrowing).toBe(false);
+  expect((await stateOf(page)).isGrowing).toBe(true);
+  await page.clock.runFor(2000);
+  expect((await stateOf(page)).isGrowing).toBe(false);
   expect((await stateOf(page)).canUndo).toBe(false);
 });
 
 test('reduced motion: the surface is there at once, and a replay can be skipped', async ({ quietPage: page }) => {
   await page.emulateMedia({ reducedMotion: 'reduce' });
+  await page.clock.install({ time: 0 });
   await openPage(page);
   expect((await stateOf(page)).isGrowing).toBe(false);
+  await page.clock.pauseAt(3_600_000);
   await page.getByRole('button', { name: 'Let the surface appear again' }).click();
+  await page.clock.runFor(50);
   expect((await stateOf(page)).isGrowing).toBe(true);
   await page.getByRole('button', { name: 'Show the whole surface now' }).click();
-  await expect.poll(async () => (await stateOf(page)).isGrowing, { timeout: 700 }).toBe(false);
+  await page.clock.runFor(50);
+  expect((await stateOf(page)).isGrowing).toBe(false);
 });
 
 test('two drawn curves: spanned for least area among all triangles, then for least bending in Delaunay space', async ({

@@ -29,9 +29,16 @@ export async function openEmpty(page: Page): Promise<void> {
   await lookFrom(page, 'plus z');
 }
 
+/** Looks along an axis, from now on without flights, and waits for the picture. */
 export async function lookFrom(page: Page, axis: string): Promise<void> {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
   await page.getByRole('button', { name: `Look from ${axis}` }).click();
-  await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 700)));
+  await page.evaluate(
+    () =>
+      new Promise((resolve) => {
+        requestAnimationFrame(() => requestAnimationFrame(resolve));
+      }),
+  );
 }
 
 /** The part of the state that survives the way out of the browser. */
@@ -100,7 +107,7 @@ export async function spanned(page: Page): Promise<State & { span: NonNullable<S
   await expect(async () => {
     const { phase, isStale, span } = await stateOf(page);
     expect({ phase, isStale, hasSpan: span !== null }).toEqual({ phase: 'done', isStale: false, hasSpan: true });
-  }).toPass({ timeout: 30_000, intervals: [50, 100, 200] });
+  }).toPass({ intervals: [50, 100, 200] });
   const state = await stateOf(page);
   if (state.span === null) throw new Error('The surface has gone.');
   return { ...state, span: state.span };

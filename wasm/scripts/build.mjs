@@ -17,10 +17,10 @@ const scripts = ['wasm/scripts/build.mjs'];
 const packages = ['package.json', 'package-lock.json'];
 
 /**
- * Configures and builds a CMake preset, shown only if it fails; anew where the build tree is from
- * another place or another compiler.
+ * Configures and builds a CMake preset, or only some targets of it, shown only if it fails; anew where
+ * the build tree is from another place or another compiler.
  */
-export async function buildPreset(preset, { launcher = [], env = {} } = {}) {
+export async function buildPreset(preset, { targets = [], launcher = [], env = {} } = {}) {
   const cwd = path.join(root, 'wasm');
   const tree = path.join(buildRoot, preset);
   const origin = path.join(tree, 'origin');
@@ -32,8 +32,9 @@ export async function buildPreset(preset, { launcher = [], env = {} } = {}) {
   }
   const options = { cwd, env, capture: true, allowFailure: true };
   const configure = [...launcher, 'cmake', '--preset', preset];
-  const steps = [configure, ['cmake', '--build', '--preset', preset, '-j', String(jobs)]];
-  for (const [program, ...args] of steps) {
+  const build = ['cmake', '--build', '--preset', preset, '-j', String(jobs)];
+  if (targets.length > 0) build.push('--target', ...targets);
+  for (const [program, ...args] of [configure, build]) {
     const { code, output } = await run(program, args, options);
     const told = output.split('\n').filter((line) => !/^\[\d+\/\d+\]/.test(line));
     if (code !== 0) throw new Failure(`${told.join('\n')}\nThe preset ${preset} does not build.`);

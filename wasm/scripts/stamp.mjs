@@ -23,9 +23,10 @@ export function listFiles(entries, wanted = () => true) {
   return found;
 }
 
-function digest(entries, facts) {
+/** A digest of the wanted files below some files and folders, of this Node's version and of `facts`. */
+export function digest(entries, facts, wanted) {
   const hash = createHash('sha256').update(JSON.stringify([process.version, facts]));
-  for (const file of listFiles(entries)) {
+  for (const file of listFiles(entries, wanted)) {
     hash.update(`\0${file}\0`).update(readFileSync(path.join(root, file)));
   }
   return hash.digest('hex');

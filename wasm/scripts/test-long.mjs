@@ -1,9 +1,10 @@
-// npm run test:long: C++ tests that take longer than `npm test` may, optimised, CGAL as an oracle;
-// and clang-tidy.
+// npm run test:long [-- tidy | word…]: C++ tests that take longer than `npm test` may, optimised, CGAL as an
+// oracle; and clang-tidy. `tidy` is clang-tidy alone, other words are parts of the names of tests.
 import path from 'node:path';
 import { buildPreset } from './build.mjs';
+import { choose, cppTests } from './cpp.mjs';
 import { buildRoot, main, say } from './run.mjs';
-import { Summary, clangTidy, doctest } from './suites.mjs';
+import { Summary, clangTidy } from './suites.mjs';
 import { checkNode, ensureTools } from './tools.mjs';
 
 await main(async () => {
@@ -20,13 +21,15 @@ await main(async () => {
   for (const tool of missing) summary.notes.push(`${tool} was not found: what needs it was LEFT OUT`);
   await buildPreset('native-long');
   say('');
-  if (paths.clangTidy) {
+  const words = process.argv.slice(2);
+  if (paths.clangTidy && (words.length === 0 || words.includes('tidy'))) {
     const tree = path.join(buildRoot, 'native-long');
     await summary.suite('clang-tidy', () => clangTidy(paths.clangTidy, tree));
   }
-  const program = path.join(buildRoot, 'native-long/soapfilm_long_tests');
-  await summary.suite('long C++ tests', () =>
-    doctest(program, { seconds: 7200, args: process.argv.slice(2) }),
-  );
+  const others = words.filter((word) => word !== 'tidy');
+  if (words.length === 0 || others.length > 0) {
+    const choice = choose(others, { isLong: true });
+    await summary.suite('long C++ tests', () => cppTests('native-long', choice, { isLong: true }));
+  }
   return summary.finish();
 });

@@ -322,7 +322,7 @@ TEST_CASE("predicates: ties of incircle are broken as lifting would") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("scaleToUnit: a power of two brings the largest magnitude into [1/2, 1)") {
+TEST_CASE("scaleToUnit: a power of two brings the largest magnitude to 1/2 or more, and below 1") {
   std::vector<Vec3> points = {{3, -1000, 0}, {-0.0, 1e-300, 7}, {1e-55, 0, 1}}, scaled;
   int e = sf::scaleToUnit(points, scaled);
   CHECK(e == 10);

@@ -61,12 +61,16 @@ struct Fixture {
   bool hasRoot = false;
 };
 
+/// Four loops take a hundred times as long as two.
 Curves someLoops(int i, Random& random) {
   return i % 4 == 0   ? randomLoops({5, 4}, 0.8, random)
-         : i % 4 == 1 ? randomLoops({4, 3, 3}, 1, random)
-         : i % 4 == 2 ? randomLoops({3, 3, 3, 3}, 1, random)
-                      : regularSaddles(3, 4, random);
+         : i % 8 == 2 ? randomLoops({3, 3, 3, 3}, 1, random)
+         : i % 4 == 3 ? regularSaddles(3, 4, random)
+                      : randomLoops({4, 3, 3}, 1, random);
 }
+
+/// How many surfaces to take of a problem: those of four loops have many more domains.
+int surfaceCount(const Fixture& f) { return f.loops.loopCount() > 3 ? 4 : 12; }
 
 template <class Check>
 void forProblems(uint32_t seed, int count, Check&& check) {
@@ -98,7 +102,7 @@ TEST_CASE("fan estimate: no domain of any surface costs less, and many not much 
   forProblems(131, 42, [&](Fixture& f, FanEstimate& estimate, Random& random) {
     const Pass pass = f.pass();
     const uint32_t root = random.below(f.loops.vertexCount());
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < surfaceCount(f); ++i) {
       const Optimum surface = f.someSurface(random.range(0, 2), random);
       if (surface.cost == kInfinity) return;
       const std::vector<FilledDomain> domains = domainsOf(pass, root, surface.order);
@@ -162,7 +166,7 @@ TEST_CASE(
         ++within;
       });
     }
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < surfaceCount(f); ++i) {
       const Optimum surface = f.someSurface(i ? random.range(0, 0.5) : 0, random);
       const double cost = f.costOf(surface.order);
       if (cost > to) continue;
