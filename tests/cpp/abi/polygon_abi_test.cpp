@@ -275,6 +275,10 @@ TEST_CASE("polygon sessions, C ABI: numbers are given again, and those of none a
   CHECK(edit(b, 3, 0, 2, 9) == Status::SelfIntersecting);
   CHECK(edit(b, 4, 0, 1, 1) == Status::BadOption);
   CHECK(edit(77, 1, 0, 1, 1) == Status::BadOption);
+  // Vertices that the polygon has not; the numbers before 2^32 are those of the box around it.
+  for (const uint32_t vertex : {4u, 0xFFFFFFFCu, 0xFFFFFFFEu, 0xFFFFFFFFu})
+    for (const uint32_t action : {0u, 2u, 3u})
+      CHECK(edit(b, action, vertex, 1, 1) == Status::BadOption);
   CHECK(sf_session_close(a) == 0);
   CHECK(edit(a, 1, 0, 1, 2) == Status::BadOption);
   CHECK(Status(sf_session_read(a, where, &result)) == Status::BadOption);
