@@ -134,11 +134,12 @@ describe('errors', () => {
     expect(message).toMatch(/^Loop 1, vertex 2 /);
   });
 
-  test('input that cannot be sent: bad-option, and the next call works', async () => {
+  test('input that cannot be sent: is refused as by the synchronous call, and the next call works', async () => {
     const film = await newFilm();
     const odd = { area: (() => 1) as unknown as number };
     const error = await rejectionOf(film.spanLoops(kLoops, { weights: odd }));
-    expect(error.code).toBe('bad-option');
+    expect(error.code).toBe('bad-weights');
+    expect(error.message).toContain('`weights.area`');
     expect((await provoke(film, Fault.none)).cost).toBe(1);
   });
 

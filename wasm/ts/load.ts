@@ -1,6 +1,7 @@
 // load: the core's parts, compiled and started in this thread.
+import { optionsOf } from './check.js';
 import { compilePart, once, partsOf } from './compile.js';
-import { checkNames, kLoadOptions } from './options.js';
+import { kLoadOptions } from './options.js';
 import { startCore } from './runtime.js';
 import type { LoadOptions, Part, WasmSource } from './types.js';
 
@@ -14,10 +15,9 @@ const loading = new Map<Part, Promise<void>>();
  * @throws SoapfilmError `load-failed`, with the reason as its `cause`; `bad-option`
  */
 export async function load(options: LoadOptions = {}): Promise<void> {
-  checkNames(options, kLoadOptions);
   const start = async (part: Part, source?: WasmSource): Promise<void> =>
     startCore(part, await compilePart(part, source));
   await Promise.all(
-    partsOf(options).map(([part, source]) => once(loading, part, () => start(part, source))),
+    partsOf(optionsOf(options, kLoadOptions)).map(([part, source]) => once(loading, part, () => start(part, source))),
   );
 }

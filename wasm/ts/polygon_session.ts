@@ -1,12 +1,14 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 // PolygonSession: a polygon that stays in the core while it is edited.
 import { kDispose } from './dispose.js';
+import { isIndex, mustBe, optionsOf } from './check.js';
 import { SoapfilmError } from './errors.js';
+import { flattenLists } from './flatten.js';
 import { ringError } from './messages.js';
-import { checkLimits, checkNames } from './options.js';
-import { toFlatPolygon } from './polygon.js';
+import { kDefaultMemoryBytes, limitsOf } from './options.js';
+import { flattenPolygon } from './polygon_input.js';
 import { callCore, Home, type Arrays, type CoreArgument } from './runtime.js';
-import type { PolygonEdit, PolygonLike, PolygonOptions, PolygonState } from './types.js';
+import type { Point2Like, PolygonEdit, PolygonLike, PolygonOptions, PolygonState } from './types.js';
 
 /** Where sessions live: apart from other calls, which may end with an instance that has to be dropped. */
 let home = new Home('polygons');
@@ -46,10 +48,11 @@ export class PolygonSession {
    * are those of `PolygonState.next`.
    */
   constructor(polygon: PolygonLike, options: Pick<PolygonOptions, 'maxMemoryBytes'> = {}) {
-    checkNames(options, { maxMemoryBytes: true });
-    const maxBytes = checkLimits(options);
-    const { positions, ringStarts, points, dim } = toFlatPolygon(polygon);
-    if (dim === 3) throw new SoapfilmError('bad-polygon', 'Sessions take 2D polygons');
+    const limits = limitsOf(optionsOf(options, { maxMemoryBytes: true }));
+    const { positions, ringStarts, points, dim } = flattenPolygon(polygon);
+    if (dim === 3) {
+      throw new SoapfilmError('bad-polygon', '`polygon` must have two dimensions: sessions are in the plane');
+    }
     if (home.lost) [home, open] = [new Home('polygons'), 0];
     this.#home = home;
     const [[number], triangles] = this.#call(
@@ -60,7 +63,7 @@ export class PolygonSession {
         ringStarts.length - 1,
         points ?? null,
         points ? points.length / 2 : 0,
-        maxBytes,
+        limits.maxMemoryBytes ?? kDefaultMemoryBytes,
       ],
       [Uint32Array, Uint32Array],
     );
@@ -72,26 +75,27 @@ export class PolygonSession {
 
   /** `[3m]` the triangles, counter-clockwise. */
   get triangles(): Uint32Array {
+    this.#alive();
     return this.#triangles.slice(0, this.#count);
   }
 
   /** Inserts a vertex into a ring, between `before` and the next one. */
-  insert(before: number, [x, y]: readonly [number, number]): PolygonEdit {
-    return this.#edit(kInsert, before, x, y);
+  insert(before: number, point: Point2Like): PolygonEdit {
+    return this.#edit(kInsert, 'before', before, point);
   }
 
   /** Inserts an isolated vertex inside the polygon. */
-  insertPoint([x, y]: readonly [number, number]): PolygonEdit {
-    return this.#edit(kInsertIsolated, 0, x, y);
+  insertPoint(point: Point2Like): PolygonEdit {
+    return this.#edit(kInsertIsolated, '', 0, point);
   }
 
   /** Deletes a vertex; its number may be given to one inserted later. A ring keeps 3 vertices. */
   delete(vertex: number): PolygonEdit {
-    return this.#edit(kDelete, vertex, 0, 0);
+    return this.#edit(kDelete, 'vertex', vertex, kOrigin);
   }
 
-  move(vertex: number, [x, y]: readonly [number, number]): PolygonEdit {
-    return this.#edit(kMove, vertex, x, y);
+  move(vertex: number, point: Point2Like): PolygonEdit {
+    return this.#edit(kMove, 'vertex', vertex, point);
   }
 
   /** All that the session holds besides the triangles, in time proportional to the polygon's size. */
@@ -128,10 +132,11 @@ export class PolygonSession {
     return callCore(this.#home, name, args, types, { explain: ringError }).arrays;
   }
 
-  #edit(action: number, vertex: number, x: number, y: number): PolygonEdit {
-    if (vertex >>> 0 !== vertex) {
-      throw new SoapfilmError('bad-option', `There is no vertex ${String(vertex)}`);
-    }
+  /** @param role what the vertex is called */
+  #edit(action: number, role: string, vertex: number, point: Point2Like): PolygonEdit {
+    this.#alive();
+    if (!isIndex(vertex)) throw mustBe('bad-option', role, 'the number of a vertex', vertex);
+    const [x, y] = coordinatesOf(point);
     const [told] = this.#call(
       'sf_session_edit',
       [this.#alive(), action, vertex, x, y],
@@ -154,7 +159,7 @@ export class PolygonSession {
       for (let k = 0; k < 3; k++) this.#triangles[3 * t + k] = triangles[3 * i + k];
       if (status !== 0) this.#untold.add(t);
     }
-    if (status !== 0) throw ringError(status, told.subarray(3, kFacts));
+    if (status !== 0) throw refusal(status, told.subarray(3, kFacts), role, vertex);
     if (this.#untold.size > 0) {
       const names = new Set([...this.#untold, ...changed]);
       changed = Uint32Array.from(names)
@@ -167,4 +172,24 @@ export class PolygonSession {
     }
     return { vertex: told[0], triangleCount, changed, triangles };
   }
+}
+
+const kOrigin = [0, 0];
+
+/** The two coordinates of a point. */
+function coordinatesOf(point: unknown): Float64Array {
+  return flattenLists([[point]], 2, true, 'bad-option', () => ({ text: '`point`', place: {} })).positions;
+}
+
+/** The error for an edit that was refused, in words of its arguments where they are at fault. */
+function refusal(status: number, where: Uint32Array, role: string, vertex: number): SoapfilmError {
+  const error = ringError(status, where);
+  const { code, loop, vertex: culprit } = error;
+  if (code === 'bad-option') {
+    const what = role === 'before' ? 'a vertex of a ring' : 'a vertex';
+    return new SoapfilmError(code, `\`${role}\` must be the number of ${what}, and ${vertex} is none`);
+  }
+  if (code !== 'not-finite') return error;
+  const place = { ...(loop !== undefined && { loop }), ...(culprit !== undefined && { vertex: culprit }) };
+  return new SoapfilmError(code, '`point` has a coordinate that is NaN, infinite or beyond 1e150', place);
 }

@@ -46,7 +46,7 @@ export class Pool {
   }
 
   /**
-   * Runs one function in a thread.
+   * Runs one function in a thread. The buffers of its input are handed over: they must be the pool's own.
    * @throws SoapfilmError of the function, `cancelled`, `disposed`, `crashed`, or `load-failed` when
    *   no thread can be started; what the listeners throw, which also ends the work
    */
@@ -71,7 +71,7 @@ export class Pool {
         request: {
           kind: 'call',
           name,
-          input: copyOf(input),
+          input,
           progress: onProgress !== undefined,
           results: keepsBest,
         },
@@ -118,9 +118,7 @@ export class Pool {
     } catch (cause) {
       this.#release(member);
       job.reject(
-        new SoapfilmError('bad-option', 'The input holds what cannot be sent to a worker', undefined, {
-          cause,
-        }),
+        new SoapfilmError('out-of-memory', 'The input cannot be handed to a worker', undefined, { cause }),
       );
     }
   }

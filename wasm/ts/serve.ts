@@ -1,5 +1,4 @@
 // A thread's side of the pool: runs the calls that it is sent, one after the other.
-import { triangulateGeoJSON } from './geojson.js';
 import { spanLoops } from './loops.js';
 import { triangulatePolygon, triangulatePolygons } from './polygon.js';
 import { buffersOf, packError, packErrors, type Calls, type Reply, type Request } from './protocol.js';
@@ -12,7 +11,7 @@ export interface Port {
   postMessage(message: unknown, transfer: ArrayBuffer[]): void;
 }
 
-const calls: Calls = { spanLoops, triangulatePolygon, triangulatePolygons, triangulateGeoJSON };
+const calls: Calls = { spanLoops, triangulatePolygon, triangulatePolygons };
 
 /** Answers the requests that come through `port`, as long as the thread lives. */
 export function serve(port: Port): void {

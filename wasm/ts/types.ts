@@ -11,8 +11,28 @@ export interface LoopSet {
 /** A point as a triple. */
 export type Point = readonly [x: number, y: number, z: number];
 
-/** Loops in either form: flat arrays, or one array of points a loop. */
-export type LoopsLike = LoopSet | readonly (readonly Point[])[];
+/** Coordinates as numbers in an array of any kind; how many there must be depends on the use. */
+export type Coordinates = readonly number[] | Float32Array | Float64Array;
+
+/** A point in space: three coordinates, or an object that has them, such as three's `Vector3`. */
+export type PointLike = Coordinates | { readonly x: number; readonly y: number; readonly z: number };
+
+/** A point of the plane, likewise. */
+export type Point2Like = Coordinates | { readonly x: number; readonly y: number; readonly z?: undefined };
+
+/** A closed loop: points, or `[3m]` all their coordinates in one typed array. */
+export type LoopLike = readonly PointLike[] | Float32Array | Float64Array;
+
+/** Loops in flat arrays as they may be given. */
+export interface LoopSetLike {
+  /** `[3n]` xyz, one length unit. */
+  readonly positions: Float32Array | Float64Array;
+  /** `[k + 1]`, first 0, not falling, last n. Default: all vertices are one loop. */
+  readonly starts?: Uint32Array | readonly number[];
+}
+
+/** Loops in any form: flat arrays, or one list of points a loop. They are read, and never changed or taken. */
+export type LoopsLike = LoopSetLike | readonly LoopLike[];
 
 /** Factors of the cost. At least one is positive; those left out are 0. */
 export interface Weights {
@@ -168,13 +188,13 @@ export interface NoSpan {
  */
 export interface PolygonSet {
   /** `[dim · n]` xy, or xyz of points in a plane of any tilt. */
-  readonly positions: Float64Array;
-  /** `[r + 1]`, first 0, increasing, last n. */
-  readonly starts: Uint32Array;
+  readonly positions: Float32Array | Float64Array;
+  /** `[r + 1]`, first 0, increasing, last n. Default: all vertices are one ring. */
+  readonly starts?: Uint32Array | readonly number[];
   /** Default 2. */
   readonly dim?: 2 | 3;
   /** `[dim · q]` isolated vertices inside the polygon, numbered from n on. */
-  readonly points?: Float64Array;
+  readonly points?: Float32Array | Float64Array;
 }
 
 /** A polygon as earcut takes it. */
@@ -187,23 +207,29 @@ export interface EarcutPolygon {
   readonly dim?: 2 | 3;
 }
 
-/** A closed ring of `[x, y]` or `[x, y, z]`. */
-export type Ring = readonly (readonly number[])[];
+/**
+ * A closed ring: points of the plane or of space, all of a polygon alike, or `[2m]` all coordinates xy in
+ * one typed array.
+ */
+export type Ring = readonly (Point2Like | PointLike)[] | Float32Array | Float64Array;
 
-/** A polygon in any form: flat arrays, or one array of points a ring. */
+/** A polygon in any form: flat arrays, or one list of points a ring. */
 export type PolygonLike = PolygonSet | EarcutPolygon | readonly Ring[];
 
 /** Many polygons in flat arrays. */
 export interface PolygonBatch {
   /** `[dim · n]` */
-  readonly positions: Float64Array;
+  readonly positions: Float32Array | Float64Array;
   /** `[r + 1]` in vertices, first 0, increasing, last n. */
-  readonly ringStarts: Uint32Array;
+  readonly ringStarts: Uint32Array | readonly number[];
   /** `[p + 1]` in rings, first 0, increasing, last r. */
-  readonly polygonStarts: Uint32Array;
+  readonly polygonStarts: Uint32Array | readonly number[];
   /** Default 2. */
   readonly dim?: 2 | 3;
 }
+
+/** Many polygons in either form: flat arrays, or an array of polygons, each an array of rings. */
+export type PolygonsLike = PolygonBatch | readonly (readonly Ring[])[];
 
 export interface PolygonOptions {
   /** `'flooding'` (default, Ronfard and Rossignac 1994) or `'trapezoids'` (Kumar): better angles. */
