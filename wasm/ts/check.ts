@@ -53,7 +53,7 @@ export function guarded<T>(code: ErrorCode, name: string, read: () => T): T {
 export type Names<T> = Readonly<Record<keyof T, true>>;
 
 /** Fields as they were given, of any kind. */
-export type Given<T> = { readonly [K in keyof T]?: unknown };
+export type Given<T> = Readonly<Partial<Record<keyof T, unknown>>>;
 
 /**
  * The named fields of an argument, each read once; those that are undefined are left out.
@@ -74,7 +74,7 @@ export function fieldsOf<T extends object>(
     const field = guarded(code, path + key, () => (value as Record<string, unknown>)[key]);
     if (field !== undefined) fields[key] = field;
   }
-  return fields;
+  return fields as Given<T>;
 }
 
 /** As `fieldsOf`, of what may have no other fields: a misspelt option would go unnoticed. */
@@ -140,7 +140,7 @@ type Kind = keyof typeof constructors;
 /**
  * A typed array of one of the kinds, as a view of the same memory that has no fields or methods of the
  * caller's; undefined for other values.
- * @throws TypeError where its buffer is detached
+ * @throws TypeError where its buffer is detached, or has shrunk to end before it
  */
 export function viewOf<K extends Kind>(
   kinds: readonly K[],
@@ -149,6 +149,8 @@ export function viewOf<K extends Kind>(
   const kind = kindOf(value) as K;
   if (!kinds.includes(kind)) return undefined;
   const view = value as object;
+  // Of what lies outside of its buffer too, which otherwise is only empty.
+  if (lengthOf(view) === 0) Uint8Array.prototype.keys.call(view);
   return new constructors[kind](bufferOf(view), offsetOf(view), lengthOf(view)) as InstanceType<
     (typeof constructors)[K]
   >;

@@ -40,8 +40,11 @@ export async function compile(options: LoadOptions = {}): Promise<Modules> {
 export function partsOf({ parts, wasm }: Given<LoadOptions>): [Part, WasmSource | undefined][] {
   const isPart = (part: unknown): part is Part => kParts.includes(part as Part);
   const named = guarded('bad-option', 'parts', () => {
-    const list: unknown[] = parts === undefined ? [...kParts] : Array.isArray(parts) ? [...(parts as unknown[])] : [];
-    if (list.length > 0 && list.every(isPart)) return list;
+    const list: readonly unknown[] = parts === undefined ? kParts : Array.isArray(parts) ? parts : [];
+    const known: Part[] = [];
+    // By index: iterators pass over what is missing.
+    for (let i = 0; i < list.length && isPart(list[i]); i++) known.push(list[i] as Part);
+    if (known.length > 0 && known.length === list.length) return known;
     const names = kParts.map((part) => `'${part}'`).join(', ');
     throw mustBe('bad-option', 'parts', `one of ${names}, or several, in an array`, parts);
   });

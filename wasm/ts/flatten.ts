@@ -4,8 +4,8 @@ import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
 import { fieldsOf, guarded, isIndex, kindOf, mustBe, show, viewOf } from './check.js';
 import type { LoopsLike, LoopSet } from './types.js';
 
-/** More vertices than the core can number. */
-const kMostVertices = 2 ** 30;
+/** More vertices than fit into WebAssembly's memory. */
+const kMostVertices = 2 ** 27;
 
 /** Lists of points, as flat arrays. */
 export interface FlatLists {
@@ -39,9 +39,14 @@ export function flattenLists(
   placeOf: PlaceOf,
 ): FlatLists {
   let at = 0;
-  const fail = (vertex: number | undefined, what: string, cause?: unknown): SoapfilmError => {
+  const fail = (
+    vertex: number | undefined,
+    what: string,
+    cause?: unknown,
+    as: ErrorCode = code,
+  ): SoapfilmError => {
     const { text, place } = placeOf(at, vertex);
-    return new SoapfilmError(code, `${text} ${what}`, place, { cause });
+    return new SoapfilmError(as, `${text} ${what}`, place, { cause });
   };
   try {
     const dim = size ?? sizeOf(lists);
@@ -51,7 +56,9 @@ export function flattenLists(
       const count = countOf(lists[at], dim);
       if (!isIndex(count)) throw fail(undefined, `must be an array of points, not ${show(lists[at])}`);
       n += count;
-      if (n > kMostVertices) throw new SoapfilmError('too-large', 'There are more than 2^30 vertices');
+      if (n > kMostVertices) {
+        throw fail(undefined, `brings the vertices to more than ${kMostVertices}`, undefined, 'too-large');
+      }
       starts.push(n);
     }
     const positions = allocate(dim * n);
@@ -157,6 +164,17 @@ export function flatPositions(
   });
 }
 
+/** A copy of a list of whole numbers, which is not believed to be as long as it says. */
+export function indicesOf(list: ArrayLike<unknown>, name: string): Uint32Array {
+  const indices: number[] = [];
+  for (let i = 0; i < list.length; i++) {
+    const index = list[i];
+    if (!isIndex(index)) throw mustBe('bad-starts', `${name}[${i}]`, 'a whole number', index);
+    indices.push(index);
+  }
+  return Uint32Array.from(indices);
+}
+
 /**
  * Offsets, as an array of our own.
  * @param code of the error for what is no list of numbers; `bad-starts` (`.loop`) is that for wrong ones
@@ -168,13 +186,7 @@ export function flatStarts(value: unknown, last: number, code: ErrorCode, name: 
   const starts = guarded(code, name, () => {
     const list = Array.isArray(value) ? (value as readonly unknown[]) : viewOf(['Uint32Array'], value);
     if (!list) throw mustBe(code, name, 'a Uint32Array or an array of whole numbers', value);
-    const copy = new Uint32Array(list.length);
-    for (let i = 0; i < copy.length; i++) {
-      const start = list[i];
-      if (!isIndex(start)) throw mustBe('bad-starts', `${name}[${i}]`, 'a whole number', start);
-      copy[i] = start;
-    }
-    return copy;
+    return indicesOf(list, name);
   });
   if (starts.length === 0 || starts[0] !== 0) throw bad(`\`${name}\` must begin with 0`);
   for (let i = 0; i + 1 < starts.length; i++) {

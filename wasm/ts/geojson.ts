@@ -26,8 +26,8 @@ export function triangulateGeoJSON(
   return { ...triangulate(flat, checked, true), positions: flat.positions, featureStarts };
 }
 
-/** More geometries than can be handled; objects that are listed again and again may come to that. */
-const kMostGeometries = 2 ** 26;
+/** More geometries than any text holds; objects that are listed again and again may come to that. */
+const kMostGeometries = 2 ** 24;
 
 /**
  * The polygons of GeoJSON as flat arrays, and where those of each feature begin.
@@ -52,9 +52,7 @@ function collect(geojson: GeoJSONLike): { polygons: unknown[]; featureStarts: nu
     while (todo.length > 0) {
       const next = todo.pop();
       if (open.delete(next)) continue;
-      if (++count > kMostGeometries) {
-        throw new SoapfilmError('too-large', `\`geojson\` holds more than ${kMostGeometries} geometries`);
-      }
+      if (++count > kMostGeometries) throw tooMany();
       const { type, geometry, geometries, coordinates } = readObject(next);
       if (type === 'Feature' || type === 'GeometryCollection') {
         // Null where a feature has no place.
@@ -62,6 +60,7 @@ function collect(geojson: GeoJSONLike): { polygons: unknown[]; featureStarts: nu
           type === 'Feature' ? [geometry].filter((part) => part !== null) : listOf(geometries, 'geometries` of `geojson');
         open.add(next);
         todo.push(next);
+        if (count + parts.length > kMostGeometries) throw tooMany();
         for (let i = parts.length - 1; i >= 0; i--) {
           if (open.has(parts[i])) {
             throw new SoapfilmError('bad-polygon', `A collection of feature ${f} in \`geojson\` contains itself`);
@@ -71,6 +70,7 @@ function collect(geojson: GeoJSONLike): { polygons: unknown[]; featureStarts: nu
       } else if (type === 'Polygon') polygons.push(coordinates);
       else if (type === 'MultiPolygon') {
         const parts = listOf(coordinates, 'coordinates` of `geojson');
+        if ((count += parts.length) > kMostGeometries) throw tooMany();
         for (let i = 0; i < parts.length; i++) polygons.push(parts[i]);
       } else if (typeof type !== 'string' || !kThin.test(type)) {
         throw new SoapfilmError('bad-polygon', `Feature ${f} of \`geojson\` has no GeoJSON geometry`);
@@ -80,6 +80,9 @@ function collect(geojson: GeoJSONLike): { polygons: unknown[]; featureStarts: nu
   }
   return { polygons, featureStarts };
 }
+
+const tooMany = (): SoapfilmError =>
+  new SoapfilmError('too-large', `\`geojson\` holds more than ${kMostGeometries} geometries`);
 
 /** The fields of an object that have a meaning; none of what is no object. */
 function readObject(value: unknown): Partial<Record<'type' | 'features' | 'geometry' | 'geometries' | 'coordinates', unknown>> {

@@ -1,16 +1,16 @@
 // Polygons and their options as callers give them, checked and made flat for the core.
-import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
+import { SoapfilmError, type ErrorCode } from './errors.js';
 import {
   choiceOf,
   fieldsOf,
   flagOf,
   guarded,
-  isIndex,
   kindOf,
   mustBe,
+  show,
   type Given,
 } from './check.js';
-import { flatPositions, flatStarts, flattenLists } from './flatten.js';
+import { flatPositions, flatStarts, flattenLists, indicesOf, type PlaceOf } from './flatten.js';
 import { limitsOf } from './options.js';
 import type {
   EarcutPolygon,
@@ -125,15 +125,17 @@ export function flattenPolygons(
 ): FlatPolygons {
   const polygonStarts = [0];
   const rings: unknown[] = [];
-  const placeOf = (ring: number, vertex?: number): { text: string; place: ErrorPlace } => {
-    let polygon = polygonStarts.length - 1;
-    while (polygonStarts[polygon] > ring) polygon--;
-    const loop = ring - polygonStarts[polygon];
+  const placeIn = (polygon: number, loop: number, vertex?: number): ReturnType<PlaceOf> => {
     const place = { ...(name !== 'polygon' && { polygon }), loop, ...(vertex !== undefined && { vertex }) };
     const words = [`ring ${loop}`, ...(vertex === undefined ? [] : [`vertex ${vertex}`])];
     if (name !== 'polygon') words.unshift(`polygon ${polygon}`);
     const text = `${words.join(', ')} of \`${name}\``;
     return { text: text[0].toUpperCase() + text.slice(1), place };
+  };
+  const placeOf: PlaceOf = (ring, vertex) => {
+    let polygon = polygonStarts.length - 1;
+    while (polygonStarts[polygon] > ring) polygon--;
+    return placeIn(polygon, ring - polygonStarts[polygon], vertex);
   };
   guarded(kCode, name, () => {
     for (let p = 0; p < polygons.length; p++) {
@@ -141,7 +143,14 @@ export function flattenPolygons(
       if (!Array.isArray(polygon)) {
         throw new SoapfilmError(kCode, `Polygon ${p} of \`${name}\` must be an array of rings`, { polygon: p });
       }
-      for (let r = 0; r < polygon.length; r++) rings.push(polygon[r]);
+      for (let r = 0; r < polygon.length; r++) {
+        const ring: unknown = polygon[r];
+        if (Array.isArray(ring) || kindOf(ring) !== undefined) rings.push(ring);
+        else {
+          const { text, place } = placeIn(p, r);
+          throw new SoapfilmError(kCode, `${text} must be an array of points, not ${show(ring)}`, place);
+        }
+      }
       polygonStarts.push(rings.length);
     }
   });
@@ -158,13 +167,11 @@ export function flattenPolygons(
 function coordinatesOf(list: unknown, dim: number, name: string): Float64Array {
   return guarded(kCode, name, () => {
     const numbers = numbersOf(list, name);
-    const positions = new Float64Array(numbers.length);
-    for (let i = 0; i < positions.length; i++) {
-      const x = numbers[i];
-      if (typeof x !== 'number') throw mustBe(kCode, `${name}[${i}]`, 'a number', x);
-      positions[i] = x;
+    const { length } = numbers;
+    for (let i = 0; i < length; i++) {
+      if (typeof numbers[i] !== 'number') throw mustBe(kCode, `${name}[${i}]`, 'a number', numbers[i]);
     }
-    if (positions.length % dim === 0) return positions;
+    if (length % dim === 0) return new Float64Array(numbers as ArrayLike<number>);
     throw mustBe(kCode, name, `${dim} numbers for each vertex`, list);
   });
 }
@@ -172,10 +179,7 @@ function coordinatesOf(list: unknown, dim: number, name: string): Float64Array {
 /** Where rings begin, from where holes do. */
 function holesOf(list: unknown, n: number, name: string): Uint32Array {
   if (list === undefined || list === null) return Uint32Array.of(0, n);
-  const holes = guarded(kCode, name, () => Array.from(numbersOf(list, name)));
-  holes.forEach((hole, i) => {
-    if (!isIndex(hole)) throw mustBe('bad-starts', `${name}[${i}]`, 'a whole number', hole);
-  });
+  const holes = guarded(kCode, name, () => indicesOf(numbersOf(list, name), name));
   return flatStarts([0, ...holes, n], n, kCode, name);
 }
 

@@ -1,6 +1,6 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 // The entry `soapfilm/worker`: the library's functions in threads of their own.
-import { mustBe, optionsOf } from './check.js';
+import { guarded, mustBe, optionsOf } from './check.js';
 import { kDispose } from './dispose.js';
 import { compile } from './compile.js';
 import { flattenLoops } from './flatten.js';
@@ -138,6 +138,9 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
 }
 
 function signalOf(signal: unknown): AbortSignal | undefined {
-  if (signal === undefined || signal instanceof AbortSignal) return signal;
+  if (signal === undefined) return undefined;
+  // Heirs of the prototype that are none throw here.
+  const isSignal = (): boolean => signal instanceof AbortSignal && typeof signal.aborted === 'boolean';
+  if (guarded('bad-option', 'signal', isSignal)) return signal as AbortSignal;
   throw mustBe('bad-option', 'signal', 'an AbortSignal', signal);
 }
