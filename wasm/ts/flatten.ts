@@ -84,9 +84,9 @@ function countOf(list: unknown, size: number): number {
 function sizeOf(lists: readonly unknown[]): 2 | 3 {
   const list = lists.find((list) => !Array.isArray(list) || list.length > 0);
   const point: unknown = Array.isArray(list) ? list[0] : undefined;
-  if (typeof point !== 'object' || point === null) return 2;
-  const { length, z } = point as { readonly length?: unknown; readonly z?: unknown };
-  return length === 3 || (length === undefined && z !== undefined) ? 3 : 2;
+  if (Array.isArray(point) || isFloats(point)) return (point as readonly unknown[]).length === 3 ? 3 : 2;
+  // Objects may have a `length` that means something else, as three's vectors do.
+  return (Object(point) as { readonly z?: unknown }).z === undefined ? 2 : 3;
 }
 
 function allocate(length: number): Float64Array {
