@@ -46,7 +46,7 @@ export function flattenLists(
     as: ErrorCode = code,
   ): SoapfilmError => {
     const { text, place } = placeOf(at, vertex);
-    return new SoapfilmError(as, `${text} ${what}`, place, { cause });
+    return new SoapfilmError(as, `${text} ${what}`, place, cause === undefined ? undefined : { cause });
   };
   try {
     const dim = size ?? sizeOf(lists);
@@ -112,7 +112,10 @@ function putPoints(
   begin: number,
 ): number {
   if (!Array.isArray(list)) {
-    out.set(floatsOf(list) ?? [], begin);
+    const floats = floatsOf(list);
+    // What said before how long it is may say otherwise now.
+    if (floats?.length !== size * count) return 0;
+    out.set(floats, begin);
     return count;
   }
   const points = list as readonly unknown[];
