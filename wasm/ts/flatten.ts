@@ -102,8 +102,11 @@ function isFloats(value: unknown): boolean {
   return kind === 'Float64Array' || kind === 'Float32Array';
 }
 
-/** Writes points one after the other; returns the index of the first that is none, else `count`. */
-function putPoints(
+/**
+ * Writes the points of a list one after the other into `out`, from `begin` on; returns the index of the first
+ * that is none, else `count`. What getters of the points throw passes.
+ */
+export function putPoints(
   list: unknown,
   count: number,
   size: 2 | 3,

@@ -12,8 +12,8 @@ import type { LoopsLike, NoSpan, Span, SpanOptions, SpaceUsed } from './types.js
  * sphere with k holes (Zou, Ju, Carr 2013). Synchronous; the worker of `soapfilm/worker` offers
  * the same without blocking.
  *
- * @param loops flat arrays, or one array of points a loop; their directions matter only to
- *   `boundaryNormals`
+ * @param loops flat arrays, or one list of points a loop; their directions matter only to
+ *   `boundaryNormals`. They are read when the call begins, and left as they are
  * @returns the surface, m = n' + 2k - 4 triangles; `found: false` where the candidate space holds
  *   none, which is an ordinary outcome for Delaunay candidates of contorted loops
  * @throws SoapfilmError `not-loaded`; `no-loops`, `bad-loops`, `bad-starts`, `not-finite`,

@@ -1,9 +1,9 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 // PolygonSession: a polygon that stays in the core while it is edited.
 import { kDispose } from './dispose.js';
-import { isIndex, mustBe, optionsOf } from './check.js';
+import { guarded, isIndex, mustBe, optionsOf } from './check.js';
 import { SoapfilmError } from './errors.js';
-import { flattenLists } from './flatten.js';
+import { putPoints } from './flatten.js';
 import { ringError } from './messages.js';
 import { kDefaultMemoryBytes, limitsOf } from './options.js';
 import { flattenPolygon } from './polygon_input.js';
@@ -29,6 +29,8 @@ type Types = Parameters<typeof callCore>[3];
  * A triangulated polygon in the plane whose vertices can be inserted, deleted and moved; the work is in
  * proportion to the triangles around the edit. Holds memory of the core until it is disposed of.
  *
+ * Points are `[x, y]`, typed arrays of two numbers, or objects with `x` and `y`. Numbers of no vertex, and points
+ * that are none, are `bad-option`.
  * Rings may not touch, and no two vertices have one place: codes are those of `triangulatePolygon`,
  * and `repeated-vertex`. An edit that would make the polygon invalid throws and leaves the polygon as it
  * was, if perhaps with other triangles, which the next edit's `changed` then names as well. `vertex`
@@ -94,6 +96,7 @@ export class PolygonSession {
     return this.#edit(kDelete, 'vertex', vertex, kOrigin);
   }
 
+  /** Moves a vertex of a ring, or an isolated one. */
   move(vertex: number, point: Point2Like): PolygonEdit {
     return this.#edit(kMove, 'vertex', vertex, point);
   }
@@ -178,7 +181,10 @@ const kOrigin = [0, 0];
 
 /** The two coordinates of a point. */
 function coordinatesOf(point: unknown): Float64Array {
-  return flattenLists([[point]], 2, true, 'bad-option', () => ({ text: '`point`', place: {} })).positions;
+  const xy = new Float64Array(2);
+  const put = guarded('bad-option', 'point', () => putPoints([point], 1, 2, true, xy, 0));
+  if (put === 1) return xy;
+  throw mustBe('bad-option', 'point', '[x, y] or { x, y } of numbers', point);
 }
 
 /** The error for an edit that was refused, in words of its arguments where they are at fault. */
