@@ -32,8 +32,12 @@ export async function compile(options: LoadOptions = {}): Promise<Modules> {
   return Object.fromEntries(await Promise.all(parts)) as Modules;
 }
 
-/** The parts wanted, each with where it is said to be. */
-export function partsOf({ parts = kParts, wasm }: LoadOptions): [Part, WasmSource | undefined][] {
+/**
+ * The parts wanted, each with where it is said to be.
+ * @throws SoapfilmError `bad-option`
+ */
+export function partsOf({ parts = kParts, wasm, checks }: LoadOptions): [Part, WasmSource | undefined][] {
+  if (checks !== undefined && typeof checks !== 'boolean') throw badOption('checks', [false, true]);
   const isPart = (part: Part): boolean => kParts.includes(part);
   if (!Array.isArray(parts) || parts.length === 0 || !parts.every(isPart)) {
     throw badOption('parts', kParts, ', or several, in an array');

@@ -1,4 +1,14 @@
 // spanLoops: options checked and turned into the core's settings, the core's arrays into a Span.
+import {
+  kInsertedPlaceLength,
+  kObjectiveChoices,
+  kSpaceChoices,
+  packSpanSettings,
+  readInsertedPlace,
+  readSpanArrays,
+  readSpanNumbers,
+  type SpanArrays,
+} from './border.js';
 import { SoapfilmError } from './errors.js';
 import { toLoopSet } from './loopset.js';
 import {
@@ -9,21 +19,19 @@ import {
   kSpanOptions,
   kWeights,
 } from './options.js';
-import { callCore, shared, type Arrays } from './runtime.js';
+import { report } from './report.js';
+import { callCore, shared } from './runtime.js';
 import type {
   CandidateList,
   LoopSet,
   LoopsLike,
   NoSpan,
+  ProgressListener,
   Span,
   SpanOptions,
   SpaceUsed,
   Weights,
 } from './types.js';
-
-// The orders of the enums Space and Objective in src/loops/span.h.
-const kSpaces = ['auto', 'all', 'delaunay', 'near', 'given'] as const;
-const kObjectives = ['sum', 'worst-dihedral'] as const;
 
 /**
  * Spans one or more closed 3D loops with a triangulated surface of least cost: of all surfaces made
@@ -64,7 +72,7 @@ export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | N
       start ? start.length / 3 : 0,
       settings(options, maxBytes),
     ],
-    kResultTypes,
+    readSpanArrays,
     {
       onProgress,
       maxSeconds,
@@ -81,40 +89,25 @@ export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | N
     return { found, reason: noSpanReason(candidates), candidates, stats };
   }
   const span = readSpan(arrays, started);
-  onProgress?.(1, span.cost, span.lowerBound);
+  tellEnd(span, onProgress);
   return span;
 }
 
-/** The arrays of a result of `sf_span_loops`. */
-const kResultTypes = [
-  Float64Array,
-  Uint32Array,
-  Uint32Array,
-  Uint32Array,
-  Uint32Array,
-  Float64Array,
-  Uint32Array,
-  Float64Array,
-] as const;
+/** Tells the listener of the end. What it throws then comes too late to end anything: it is reported. */
+export function tellEnd(span: Span, onProgress: ProgressListener | undefined): void {
+  try {
+    onProgress?.(1, span.cost, span.lowerBound);
+  } catch (error) {
+    report(error);
+  }
+}
 
-function readSpan(arrays: Arrays<typeof kResultTypes>, started: number): Span {
-  const [positions, triangles, order, starts, loopVertices, numbers, places, parameters] = arrays;
-  const [
-    ,
-    space,
-    cost,
-    lowerBound,
-    optimal,
-    area,
-    perimeter,
-    dihedral,
-    worstDihedral,
-    ,
-    candidates,
-    domains,
-    minimalSets,
-    peakBytes,
-  ] = numbers;
+function readSpan(arrays: SpanArrays, started: number): Span {
+  const { positions, triangles, starts, loopVertices, order } = arrays;
+  const { insertedPlaces, insertedParameters } = arrays;
+  const numbers = readSpanNumbers(arrays.numbers);
+  const { cost, lowerBound, area, perimeter, dihedral, worstDihedral } = numbers;
+  const { candidates, domains, minimalSets, peakBytes } = numbers;
   const seconds = (performance.now() - started) / 1000;
   return {
     found: true,
@@ -122,16 +115,15 @@ function readSpan(arrays: Arrays<typeof kResultTypes>, started: number): Span {
     triangles,
     starts,
     loopVertices,
-    inserted: Array.from(parameters, (parameter, i) => ({
-      loop: places[2 * i],
-      edge: places[2 * i + 1],
+    inserted: Array.from(insertedParameters, (parameter, i) => ({
+      ...readInsertedPlace(insertedPlaces, kInsertedPlaceLength * i),
       parameter,
     })),
     cost,
     terms: { area, perimeter, dihedral, worstDihedral },
     lowerBound,
-    optimal: optimal !== 0,
-    candidates: kSpaces[space] as SpaceUsed,
+    optimal: numbers.optimal !== 0,
+    candidates: kSpaceChoices[numbers.space] as SpaceUsed,
     order,
     stats: { candidates, domains, minimalSets, seconds, peakBytes },
   };
@@ -152,25 +144,25 @@ function settings(
   maxBytes: number,
 ) {
   const space = typeof candidates === 'object' ? 'given' : (candidates ?? 'auto');
-  const spaceIndex = kSpaces.indexOf(space);
-  const objectiveIndex = kObjectives.indexOf(objective);
-  if (objectiveIndex < 0) throw badOption('objective', kObjectives);
+  const spaceIndex = kSpaceChoices.indexOf(space);
+  const objectiveIndex = kObjectiveChoices.indexOf(objective);
+  if (objectiveIndex < 0) throw badOption('objective', kObjectiveChoices);
   if (spaceIndex < 0 || candidates === ('given' as string)) {
-    throw badOption('candidates', kSpaces.slice(0, 4), ', or { triangles }');
+    throw badOption('candidates', kSpaceChoices.slice(0, 4), ', or { triangles }');
   }
   // NaN: the core sets the default from the size of the loops.
   if (weights) checkNames(weights, kWeights, 'weights.');
   const { area = 0, perimeter = 0, dihedral = 0 } = weights ?? { area: NaN, dihedral: 1 };
   if (weights) checkWeights({ area, perimeter, dihedral });
-  return new Float64Array([
-    area,
-    perimeter,
-    dihedral,
-    objectiveIndex,
-    spaceIndex,
+  return packSpanSettings({
+    areaWeight: area,
+    perimeterWeight: perimeter,
+    dihedralWeight: dihedral,
+    objective: objectiveIndex,
+    space: spaceIndex,
     maxBytes,
-    Number(bestSoFar),
-  ]);
+    bestSoFar: Number(bestSoFar),
+  });
 }
 
 function checkWeights(weights: Required<Weights>): void {

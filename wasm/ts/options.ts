@@ -18,7 +18,7 @@ export const kParts: readonly Part[] = ['loops', 'polygons'];
 /** The names of all options of a kind; the compiler sees to it that none is missing. */
 type Names<T> = Readonly<Record<keyof T, true>>;
 
-export const kLoadOptions: Names<LoadOptions> = { parts: true, wasm: true };
+export const kLoadOptions: Names<LoadOptions> = { parts: true, wasm: true, checks: true };
 
 const kLimits: Names<Limits> = { maxMemoryBytes: true, maxSeconds: true };
 

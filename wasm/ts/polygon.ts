@@ -1,4 +1,15 @@
 // triangulatePolygon and triangulatePolygons: polygons in one of their forms, made flat for the core.
+import {
+  kFloodActionChoices,
+  kFloodStepLength,
+  kMethodChoices,
+  kPolygonFaultLength,
+  kRepairChoices,
+  packPolygonSettings,
+  readFloodStep,
+  readPolygonArrays,
+  readPolygonFault,
+} from './border.js';
 import { SoapfilmError, type ErrorPlace } from './errors.js';
 import { isList, isNumber } from './loopset.js';
 import { ringError } from './messages.js';
@@ -16,9 +27,6 @@ import type {
   PolygonTriangulation,
   Ring,
 } from './types.js';
-
-/** The order of the core's FloodAction. */
-const kActions = ['start', 'raise', 'fill', 'bridge', 'spill', 'jump'] as const;
 
 const kOffOn = [false, true];
 
@@ -198,16 +206,16 @@ export function triangulate(
   const { positions, ringStarts, polygonStarts, points, dim = 2 } = polygons;
   choice('borrow', kOffOn, borrow);
   choice('skipInvalid', kOffOn, skipInvalid);
-  const settings = Float64Array.of(
-    dim,
-    choice('method', ['flooding', 'trapezoids'], method),
-    choice('repair', ['none', 'even-odd', 'nonzero'], repair),
-    choice('quality', ['fast', 'delaunay'], quality),
-    choice('output', ['triangles', 'strips'], output),
-    choice('verify', kOffOn, verify),
-    choice('trace', kOffOn, trace),
+  const settings = packPolygonSettings({
+    dimension: dim,
+    method: choice('method', kMethodChoices, method),
+    repair: choice('repair', kRepairChoices, repair),
+    delaunay: choice('quality', ['fast', 'delaunay'], quality),
+    strips: choice('output', ['triangles', 'strips'], output),
+    verify: choice('verify', kOffOn, verify),
+    trace: choice('trace', kOffOn, trace),
     maxBytes,
-  );
+  });
   const { arrays } = callCore(
     shared.polygons,
     'sf_triangulate_polygons',
@@ -221,28 +229,17 @@ export function triangulate(
       points ? points.length / dim : 0,
       settings,
     ],
-    [
-      Uint32Array,
-      Uint32Array,
-      Uint32Array,
-      Uint32Array,
-      Uint32Array,
-      Float64Array,
-      Uint32Array,
-      Uint32Array,
-      Uint32Array,
-      Float64Array,
-    ],
+    readPolygonArrays,
     { maxSeconds, borrows: borrow, explain: ringError },
   );
-  const [triangles, triangleStarts, strips, stripStarts, polygonStrips, added, addedOn] = arrays;
-  const [, , , , , , , steps, faults, places] = arrays;
+  const { triangles, triangleStarts, strips, stripStarts, polygonStrips, added, addedOn } = arrays;
+  const { faults, faultPoints } = arrays;
   const errors: SoapfilmError[] = [];
-  for (let i = 0; 6 * i < faults.length; i++) {
-    const [polygon, status, ...where] = faults.subarray(6 * i, 6 * i + 6);
-    const point = Array.from(places.subarray(dim * i, dim * i + dim));
-    const error = ringError(status, where, {
-      ...(several && { polygon }),
+  for (let i = 0; kPolygonFaultLength * i < faults.length; i++) {
+    const fault = readPolygonFault(faults, kPolygonFaultLength * i);
+    const point = Array.from(faultPoints.subarray(dim * i, dim * i + dim));
+    const error = ringError(fault.status, fault, {
+      ...(several && { polygon: fault.polygon }),
       ...(!Number.isNaN(point[0]) && { point }),
     });
     if (!skipInvalid) throw error;
@@ -254,7 +251,7 @@ export function triangulate(
     stripStarts,
     added,
     addedOn,
-    trace: readTrace(steps),
+    trace: readTrace(arrays.trace),
     triangleStarts,
     polygonStrips,
     errors,
@@ -262,8 +259,8 @@ export function triangulate(
 }
 
 function readTrace(steps: Uint32Array): FloodStep[] {
-  return Array.from({ length: steps.length / 4 }, (_, i) => {
-    const [action, left, right, triangles] = steps.subarray(4 * i, 4 * i + 4);
-    return { action: kActions[action], left, right, triangles };
+  return Array.from({ length: steps.length / kFloodStepLength }, (_, i) => {
+    const { action, ...step } = readFloodStep(steps, kFloodStepLength * i);
+    return { action: kFloodActionChoices[action], ...step };
   });
 }
