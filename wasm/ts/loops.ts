@@ -19,14 +19,13 @@ import {
   kSpanOptions,
   kWeights,
 } from './options.js';
-import { report } from './report.js';
+import { tellEnd } from './report.js';
 import { callCore, shared } from './runtime.js';
 import type {
   CandidateList,
   LoopSet,
   LoopsLike,
   NoSpan,
-  ProgressListener,
   Span,
   SpanOptions,
   SpaceUsed,
@@ -49,6 +48,13 @@ import type {
  *   `time-limit`; `crashed`. The next call works after any of them.
  */
 export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | NoSpan {
+  const span = computeSpan(loops, options);
+  tellEnd(span, options.onProgress);
+  return span;
+}
+
+/** `spanLoops`, but for the last call of `onProgress`. */
+export function computeSpan(loops: LoopsLike, options: SpanOptions = {}): Span | NoSpan {
   const input = toLoopSet(loops);
   checkNames(options, kSpanOptions);
   const maxBytes = checkLimits(options);
@@ -88,18 +94,7 @@ export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | N
     const { candidates, stats } = readSpan(arrays, started);
     return { found, reason: noSpanReason(candidates), candidates, stats };
   }
-  const span = readSpan(arrays, started);
-  tellEnd(span, onProgress);
-  return span;
-}
-
-/** Tells the listener of the end. What it throws then comes too late to end anything: it is reported. */
-export function tellEnd(span: Span, onProgress: ProgressListener | undefined): void {
-  try {
-    onProgress?.(1, span.cost, span.lowerBound);
-  } catch (error) {
-    report(error);
-  }
+  return readSpan(arrays, started);
 }
 
 function readSpan(arrays: SpanArrays, started: number): Span {

@@ -342,15 +342,15 @@ function callIn<T>(
   // A call that the core made of the host, and that called the core, may have trapped in that.
   if (core.entered !== 0) throw trapped(thisRun.stop?.reason, home);
   const { stop } = thisRun;
-  if (arrays === undefined) {
+  if (place) {
     if (stop) throw stop.reason;
     throw status === Status.Stopped
       ? new SoapfilmError('cancelled', 'The work was stopped')
-      : explain(status, place as Place);
+      : explain(status, place);
   }
   if (stop?.heard && !stop.gently) throw stop.reason;
   if (stop && !stop.heard) report(stop.reason);
-  return { found: status === Status.Ok, arrays };
+  return { found: status === Status.Ok, arrays: arrays as T };
 }
 
 /**

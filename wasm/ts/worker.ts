@@ -5,6 +5,7 @@ import { kDispose } from './dispose.js';
 import { compile } from './compile.js';
 import { checkNames, kLoadOptions, kPolygonOptions, kPolygonsOptions, kSpanOptions } from './options.js';
 import { Pool } from './pool.js';
+import { tellEnd } from './report.js';
 import { unpackErrors, type Calls } from './protocol.js';
 import type {
   GeoJSONLike,
@@ -108,9 +109,12 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
         },
         keepsBest: rest.bestSoFar,
       };
-      const span = (await pool.call('spanLoops', [loops, rest], watch)) as Span | NoSpan;
-      if (!span.found || span.optimal || span.lowerBound >= bound) return span;
-      return { ...span, lowerBound: Math.min(bound, span.cost) };
+      let span = (await pool.call('spanLoops', [loops, rest], watch)) as Span | NoSpan;
+      if (span.found && !span.optimal && span.lowerBound < bound) {
+        span = { ...span, lowerBound: Math.min(bound, span.cost) };
+      }
+      tellEnd(span, onProgress);
+      return span;
     },
     async triangulatePolygon(polygon, options = {}) {
       checkNames(options, { ...kPolygonOptions, signal: true });

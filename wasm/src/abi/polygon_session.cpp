@@ -39,7 +39,7 @@ std::vector<T> copyOf(sf::ArrayView<const T> view) {
 }
 
 enum class EditAction : uint32_t {
-#define SF_ACTION(name, value, meaning) name = value,
+#define SF_ACTION(name, value, meaning) name = (value),
   SF_EDIT_ACTION_CHOICES(SF_ACTION)
 #undef SF_ACTION
 };

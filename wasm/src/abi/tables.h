@@ -5,6 +5,8 @@
 
 #include "soapfilm.h"
 
+// NOLINTBEGIN(bugprone-macro-parentheses): macros that make declarations
+
 /// How many entries a table has.
 #define SF_COUNT_ONE(...) +1
 #define SF_COUNT(table) (0 table(SF_COUNT_ONE))
@@ -24,6 +26,8 @@
   }                                                                                          \
   static_assert(check(Enum{}), #Enum);                                                       \
   _Pragma("GCC diagnostic pop")
+
+// NOLINTEND(bugprone-macro-parentheses)
 
 namespace sf {
 

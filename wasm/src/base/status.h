@@ -8,7 +8,7 @@ namespace sf {
 
 /// The values cross the C ABI, whose table says what each means.
 enum class Status : int32_t {
-#define SF_STATUS(name, value, meaning) name = value,
+#define SF_STATUS(name, value, meaning) name = (value),
   SF_STATUSES(SF_STATUS)
 #undef SF_STATUS
 };
