@@ -230,6 +230,7 @@ describe('memory of a call', () => {
   ];
   test.each(outcomes)('%s: all of it is freed, and the instance stays', (_, call, expected) => {
     const before = calls();
+    const log = vi.spyOn(console, 'error').mockImplementation(() => undefined);
     let thrown: unknown;
     try {
       call();
@@ -237,6 +238,8 @@ describe('memory of a call', () => {
       thrown = error instanceof SoapfilmError ? error.code : error;
     }
     expect(thrown).toBe(expected);
+    expect(log).not.toHaveBeenCalled();
+    log.mockRestore();
     expect(leaks()).toBe(0);
     expect(calls()).toBeGreaterThan(before + 1);
   });

@@ -189,17 +189,6 @@ describe('listeners that throw when the work is done', () => {
     // The thread is still the same.
     expect((await provoke(film, Fault.none)).cost).toBe(2);
   });
-
-  test('while the work goes on: no listener is called again', async () => {
-    const film = await newFilm();
-    const mine = new Error('mine');
-    const onProgress = vi.fn((): void => {
-      throw mine;
-    });
-    await expect(provoke(film, Fault.runUntilStopped, { onProgress })).rejects.toBe(mine);
-    expect(onProgress).toHaveBeenCalledOnce();
-    expect((await provoke(film, Fault.none)).cost).toBe(1);
-  });
 });
 
 describe('pool', () => {
