@@ -109,7 +109,7 @@ describe('bundlers', () => {
     const root = await writeApp('vite', kHtml);
     await vite({ root, base: './', logLevel: 'error', configFile: false });
     const files = await list(path.join(root, 'dist/assets'));
-    expect(files.filter((file) => /^core-.*\.wasm$/.test(file))).toHaveLength(1);
+    expect(files.filter((file) => /^loops-.*\.wasm$/.test(file))).toHaveLength(1);
     expect(files.filter((file) => /^polygons-.*\.wasm$/.test(file))).toHaveLength(1);
     expect(files.filter((file) => /^worker_thread-.*\.js$/.test(file))).toHaveLength(1);
     const { title, asked } = await visitFolder(path.join(root, 'dist'));

@@ -365,6 +365,7 @@ export function loadSlots(): Slot[] {
         parts: ['missing'],
         // What is no source may still be an object without fields.
         wasm: [...sources, 'empty object', 'SharedArrayBuffer', 'heir of Float64Array'],
+        checks: kFlag,
         ...(name === 'createWorker' && { size: ['missing', '2^32 - 1', '2^32', '2^32 + 4'] as const }),
       }),
       ...slots(name, ['bad-option'], [

@@ -156,8 +156,8 @@ const readers: [string, readonly string[], (options: object) => unknown][] = [
   ['film.spanLoops', [...kSpanNames, 'signal'], (options) => film.spanLoops([kLoop], options)],
   ['triangulatePolygon', kPolygonNames, (options) => triangulatePolygon([kSquare], options)],
   ['film.triangulatePolygons', [...kPolygonNames, 'skipInvalid', 'signal'], (options) => film.triangulatePolygons([[kSquare]], options)],
-  ['load', ['parts', 'wasm'], (options) => load(options)],
-  ['createWorker', ['parts', 'wasm', 'size'], (options) => createWorker(options)],
+  ['load', ['parts', 'wasm', 'checks'], (options) => load(options)],
+  ['createWorker', ['parts', 'wasm', 'checks', 'size'], (options) => createWorker(options)],
   ['formatObj', ['name', 'precision'], (options) => formatObj(kSurface, options)],
 ];
 test.each(readers)('%s: an option that cannot be read is bad-option and named', async (_, names, call) => {

@@ -178,7 +178,7 @@ describe('in a worker', () => {
     ['spanLoops, flat', () => film.spanLoops({ positions: Float64Array.from(many.flat()), starts: [0, 500] }, { candidates: 'delaunay' })],
     ['triangulatePolygon', () => film.triangulatePolygon([many.map(([x, y]) => [x, y])])],
     ['triangulatePolygons', () => film.triangulatePolygons(squares)],
-    ['triangulateGeoJSON', () => film.triangulateGeoJSON({ type: 'MultiPolygon', coordinates: squares } as { type: string })],
+    ['triangulateGeoJSON', () => film.triangulateGeoJSON({ type: 'MultiPolygon', coordinates: squares })],
   ];
   test.each(calls)('%s: only flat arrays cross, all of them handed over', async (_, call) => {
     // eslint-disable-next-line @typescript-eslint/unbound-method -- called as a method below

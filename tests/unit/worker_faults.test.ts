@@ -6,7 +6,7 @@ import path from 'node:path';
 import { promisify } from 'node:util';
 import { SoapfilmError, type LoopSet, type Span, type SpanOptions } from 'soapfilm';
 import { createWorker, type CallOptions, type Film } from 'soapfilm/worker';
-import { afterEach, beforeAll, describe, expect, test } from 'vitest';
+import { afterEach, beforeAll, describe, expect, test, vi } from 'vitest';
 import { rejectionOf } from '../support/errors.js';
 import { Fault, faultyCore } from '../support/faulty_core.js';
 
@@ -167,6 +167,28 @@ describe('progress', () => {
     };
     await expect(provoke(film, Fault.runUntilStopped, { onProgress })).rejects.toBe(mine);
     expect((await provoke(film, Fault.none)).found).toBe(true);
+  });
+});
+
+describe('listeners that throw when the work is done', () => {
+  test('onProgress, told of the end: the result comes back, the error is reported', async () => {
+    const film = await newFilm();
+    const mine = new Error('mine');
+    const seen: number[] = [];
+    const onProgress = (fraction: number): void => {
+      seen.push(fraction);
+      throw mine;
+    };
+    const log = vi.spyOn(console, 'error').mockImplementation(() => undefined);
+    try {
+      expect((await provoke(film, Fault.none, { onProgress })).cost).toBe(1);
+      expect(seen).toEqual([1]);
+      expect(log).toHaveBeenCalledExactlyOnceWith(mine);
+    } finally {
+      log.mockRestore();
+    }
+    // The thread is still the same.
+    expect((await provoke(film, Fault.none)).cost).toBe(2);
   });
 });
 

@@ -1,5 +1,5 @@
 // Where the core's parts come from: sources, compilation, and the copies inside the library's own scripts.
-import { guarded, mustBe, optionsOf, type Given } from './check.js';
+import { flagOf, guarded, mustBe, optionsOf, type Given } from './check.js';
 import { SoapfilmError } from './errors.js';
 import { readFrom } from './host.js';
 import { kParts } from './options.js';
@@ -37,7 +37,8 @@ export async function compile(options: LoadOptions = {}): Promise<Modules> {
  * The parts wanted, each with where it is said to be.
  * @throws SoapfilmError `bad-option`
  */
-export function partsOf({ parts, wasm }: Given<LoadOptions>): [Part, WasmSource | undefined][] {
+export function partsOf({ parts, wasm, checks }: Given<LoadOptions>): [Part, WasmSource | undefined][] {
+  flagOf('checks', checks);
   const isPart = (part: unknown): part is Part => kParts.includes(part as Part);
   const named = guarded('bad-option', 'parts', () => {
     const list: readonly unknown[] = parts === undefined ? kParts : Array.isArray(parts) ? parts : [];

@@ -1,10 +1,21 @@
 // spanLoops: options turned into the core's settings, the core's arrays into a Span.
+import {
+  kInsertedPlaceLength,
+  kObjectiveChoices,
+  kSpaceChoices,
+  packSpanSettings,
+  readInsertedPlace,
+  readSpanArrays,
+  readSpanNumbers,
+  type SpanArrays,
+} from './border.js';
 import { optionsOf } from './check.js';
 import { flattenLoops } from './flatten.js';
 import { kDefaultMemoryBytes, kSpanOptions } from './options.js';
-import { kObjectives, kSpaces, spanOptionsOf } from './span_input.js';
-import { callCore, shared, type Arrays } from './runtime.js';
-import type { LoopsLike, NoSpan, Span, SpanOptions, SpaceUsed } from './types.js';
+import { tellEnd } from './report.js';
+import { callCore, shared } from './runtime.js';
+import { spanOptionsOf } from './span_input.js';
+import type { LoopSet, LoopsLike, NoSpan, Span, SpanOptions, SpaceUsed } from './types.js';
 
 /**
  * Spans one or more closed 3D loops with a triangulated surface of least cost: of all surfaces made
@@ -24,7 +35,14 @@ import type { LoopsLike, NoSpan, Span, SpanOptions, SpaceUsed } from './types.js
 export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | NoSpan {
   const input = flattenLoops(loops);
   const checked = spanOptionsOf(optionsOf(options, kSpanOptions), input, false);
-  const { onProgress, onBest, maxSeconds, bestSoFar, candidates, startFrom: start } = checked;
+  const span = computeSpan(input, checked);
+  tellEnd(span, checked.onProgress);
+  return span;
+}
+
+/** `spanLoops` of what has been checked, but for the last call of `onProgress`. */
+export function computeSpan(input: LoopSet, options: SpanOptions): Span | NoSpan {
+  const { onProgress, onBest, maxSeconds, bestSoFar, boundaryNormals, candidates, startFrom: start } = options;
   const list = typeof candidates === 'object' ? candidates : undefined;
   const started = performance.now();
   const { found, arrays } = callCore(
@@ -34,15 +52,15 @@ export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | N
       input.positions,
       input.starts,
       input.starts.length - 1,
-      checked.boundaryNormals ?? null,
+      boundaryNormals ?? null,
       list?.triangles ?? null,
       list ? list.triangles.length / 3 : 0,
       list?.weights ?? null,
       start ?? null,
       start ? start.length / 3 : 0,
-      settings(checked),
+      settings(options),
     ],
-    kResultTypes,
+    readSpanArrays,
     {
       onProgress,
       maxSeconds,
@@ -58,41 +76,15 @@ export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | N
     const { candidates, stats } = readSpan(arrays, started);
     return { found, reason: noSpanReason(candidates), candidates, stats };
   }
-  const span = readSpan(arrays, started);
-  onProgress?.(1, span.cost, span.lowerBound);
-  return span;
+  return readSpan(arrays, started);
 }
 
-/** The arrays of a result of `sf_span_loops`. */
-const kResultTypes = [
-  Float64Array,
-  Uint32Array,
-  Uint32Array,
-  Uint32Array,
-  Uint32Array,
-  Float64Array,
-  Uint32Array,
-  Float64Array,
-] as const;
-
-function readSpan(arrays: Arrays<typeof kResultTypes>, started: number): Span {
-  const [positions, triangles, order, starts, loopVertices, numbers, places, parameters] = arrays;
-  const [
-    ,
-    space,
-    cost,
-    lowerBound,
-    optimal,
-    area,
-    perimeter,
-    dihedral,
-    worstDihedral,
-    ,
-    candidates,
-    domains,
-    minimalSets,
-    peakBytes,
-  ] = numbers;
+function readSpan(arrays: SpanArrays, started: number): Span {
+  const { positions, triangles, starts, loopVertices, order } = arrays;
+  const { insertedPlaces, insertedParameters } = arrays;
+  const numbers = readSpanNumbers(arrays.numbers);
+  const { cost, lowerBound, area, perimeter, dihedral, worstDihedral } = numbers;
+  const { candidates, domains, minimalSets, peakBytes } = numbers;
   const seconds = (performance.now() - started) / 1000;
   return {
     found: true,
@@ -100,16 +92,15 @@ function readSpan(arrays: Arrays<typeof kResultTypes>, started: number): Span {
     triangles,
     starts,
     loopVertices,
-    inserted: Array.from(parameters, (parameter, i) => ({
-      loop: places[2 * i],
-      edge: places[2 * i + 1],
+    inserted: Array.from(insertedParameters, (parameter, i) => ({
+      ...readInsertedPlace(insertedPlaces, kInsertedPlaceLength * i),
       parameter,
     })),
     cost,
     terms: { area, perimeter, dihedral, worstDihedral },
     lowerBound,
-    optimal: optimal !== 0,
-    candidates: kSpaces[space] as SpaceUsed,
+    optimal: numbers.optimal !== 0,
+    candidates: kSpaceChoices[numbers.space] as SpaceUsed,
     order,
     stats: { candidates, domains, minimalSets, seconds, peakBytes },
   };
@@ -128,13 +119,13 @@ function noSpanReason(space: SpaceUsed): string {
 function settings({ weights, objective = 'sum', candidates = 'auto', bestSoFar, maxMemoryBytes }: SpanOptions) {
   // NaN: the core sets the default from the size of the loops.
   const { area = 0, perimeter = 0, dihedral = 0 } = weights ?? { area: NaN, dihedral: 1 };
-  return Float64Array.of(
-    area,
-    perimeter,
-    dihedral,
-    kObjectives.indexOf(objective),
-    kSpaces.indexOf(typeof candidates === 'object' ? 'given' : candidates),
-    maxMemoryBytes ?? kDefaultMemoryBytes,
-    Number(bestSoFar),
-  );
+  return packSpanSettings({
+    areaWeight: area,
+    perimeterWeight: perimeter,
+    dihedralWeight: dihedral,
+    objective: kObjectiveChoices.indexOf(objective),
+    space: kSpaceChoices.indexOf(typeof candidates === 'object' ? 'given' : candidates),
+    maxBytes: maxMemoryBytes ?? kDefaultMemoryBytes,
+    bestSoFar: Number(bestSoFar),
+  });
 }

@@ -15,7 +15,7 @@ export const kDefaultMemoryBytes = 3 * 2 ** 30;
 
 export const kParts: readonly Part[] = ['loops', 'polygons'];
 
-export const kLoadOptions: Names<LoadOptions> = { parts: true, wasm: true };
+export const kLoadOptions: Names<LoadOptions> = { parts: true, wasm: true, checks: true };
 
 const kLimits: Names<Limits> = { maxMemoryBytes: true, maxSeconds: true };
 

@@ -1,4 +1,13 @@
 // triangulatePolygon and triangulatePolygons: polygons in one of their forms, made flat for the core.
+import {
+  kFloodActionChoices,
+  kFloodStepLength,
+  packPolygonSettings,
+  readFloodStep,
+  readPolygonArrays,
+  readPolygonFault,
+  kPolygonFaultLength,
+} from './border.js';
 import { optionsOf } from './check.js';
 import type { SoapfilmError } from './errors.js';
 import { ringError } from './messages.js';
@@ -15,8 +24,6 @@ import type {
   PolygonTriangulation,
 } from './types.js';
 
-/** The order of the core's FloodAction. */
-const kActions = ['start', 'raise', 'fill', 'bridge', 'spill', 'jump'] as const;
 
 /**
  * Triangulates a polygon with holes, in the plane or in space: the triangles lie inside it and cover
@@ -67,16 +74,16 @@ export function triangulate(
   const { positions, ringStarts, polygonStarts, points, dim } = polygons;
   const chosen = (name: keyof typeof kChoices): number =>
     Math.max(0, (kChoices[name] as readonly unknown[]).indexOf(options[name]));
-  const settings = Float64Array.of(
-    dim,
-    chosen('method'),
-    chosen('repair'),
-    chosen('quality'),
-    chosen('output'),
-    Number(verify),
-    Number(trace),
-    options.maxMemoryBytes ?? kDefaultMemoryBytes,
-  );
+  const settings = packPolygonSettings({
+    dimension: dim,
+    method: chosen('method'),
+    repair: chosen('repair'),
+    delaunay: chosen('quality'),
+    strips: chosen('output'),
+    verify: Number(verify),
+    trace: Number(trace),
+    maxBytes: options.maxMemoryBytes ?? kDefaultMemoryBytes,
+  });
   const { arrays } = callCore(
     shared.polygons,
     'sf_triangulate_polygons',
@@ -90,28 +97,17 @@ export function triangulate(
       points ? points.length / dim : 0,
       settings,
     ],
-    [
-      Uint32Array,
-      Uint32Array,
-      Uint32Array,
-      Uint32Array,
-      Uint32Array,
-      Float64Array,
-      Uint32Array,
-      Uint32Array,
-      Uint32Array,
-      Float64Array,
-    ],
+    readPolygonArrays,
     { maxSeconds, borrows: borrow, explain: ringError },
   );
-  const [triangles, triangleStarts, strips, stripStarts, polygonStrips, added, addedOn] = arrays;
-  const [, , , , , , , steps, faults, places] = arrays;
+  const { triangles, triangleStarts, strips, stripStarts, polygonStrips, added, addedOn } = arrays;
+  const { faults, faultPoints } = arrays;
   const errors: SoapfilmError[] = [];
-  for (let i = 0; 6 * i < faults.length; i++) {
-    const [polygon, status, ...where] = faults.subarray(6 * i, 6 * i + 6);
-    const point = Array.from(places.subarray(dim * i, dim * i + dim));
-    const error = ringError(status, where, {
-      ...(several && { polygon }),
+  for (let i = 0; kPolygonFaultLength * i < faults.length; i++) {
+    const fault = readPolygonFault(faults, kPolygonFaultLength * i);
+    const point = Array.from(faultPoints.subarray(dim * i, dim * i + dim));
+    const error = ringError(fault.status, fault, {
+      ...(several && { polygon: fault.polygon }),
       ...(!Number.isNaN(point[0]) && { point }),
     });
     if (!skipInvalid) throw error;
@@ -123,7 +119,7 @@ export function triangulate(
     stripStarts,
     added,
     addedOn,
-    trace: readTrace(steps),
+    trace: readTrace(arrays.trace),
     triangleStarts,
     polygonStrips,
     errors,
@@ -131,8 +127,8 @@ export function triangulate(
 }
 
 function readTrace(steps: Uint32Array): FloodStep[] {
-  return Array.from({ length: steps.length / 4 }, (_, i) => {
-    const [action, left, right, triangles] = steps.subarray(4 * i, 4 * i + 4);
-    return { action: kActions[action], left, right, triangles };
+  return Array.from({ length: steps.length / kFloodStepLength }, (_, i) => {
+    const { action, ...step } = readFloodStep(steps, kFloodStepLength * i);
+    return { action: kFloodActionChoices[action], ...step };
   });
 }

@@ -1,4 +1,5 @@
 // Polygons and their options as callers give them, checked and made flat for the core.
+import { kMethodChoices, kRepairChoices } from './border.js';
 import { SoapfilmError, type ErrorCode } from './errors.js';
 import {
   choiceOf,
@@ -32,8 +33,8 @@ export interface FlatPolygons {
 
 /** The choices of each option, the default first; the core counts them in this order. */
 export const kChoices = {
-  method: ['flooding', 'trapezoids'],
-  repair: ['none', 'even-odd', 'nonzero'],
+  method: kMethodChoices,
+  repair: kRepairChoices,
   quality: ['fast', 'delaunay'],
   output: ['triangles', 'strips'],
 } as const;

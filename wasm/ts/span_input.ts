@@ -1,11 +1,8 @@
 // Options of spanLoops as callers give them, checked.
+import { kObjectiveChoices, kSpaceChoices } from './border.js';
 import { arrayOf, choiceOf, flagOf, functionOf, mustBe, optionsOf, type Given } from './check.js';
 import { kCandidateList, kWeights, limitsOf } from './options.js';
 import type { CandidateList, LoopSet, SpanOptions, Weights } from './types.js';
-
-/** The candidate spaces and objectives in the order of the enums of src/loops/problem, the defaults first. */
-export const kSpaces = ['auto', 'all', 'delaunay', 'near', 'given'] as const;
-export const kObjectives = ['sum', 'worst-dihedral'] as const;
 
 /**
  * The options, checked, without those that were left out.
@@ -18,11 +15,11 @@ export function spanOptionsOf(given: Given<SpanOptions>, input: LoopSet, own: bo
   const isTriples = (length: number): boolean => length % 3 === 0;
   const checked: { -readonly [K in keyof SpanOptions]: unknown } = limitsOf(given);
   if (weights !== undefined) checked.weights = weightsOf(weights);
-  checked.objective = choiceOf('objective', kObjectives, objective);
+  checked.objective = choiceOf('objective', kObjectiveChoices, objective);
   checked.candidates =
     typeof candidates === 'object'
       ? candidatesOf(candidates, own)
-      : choiceOf('candidates', kSpaces.slice(0, 4), candidates, ', or { triangles }');
+      : choiceOf('candidates', kSpaceChoices.slice(0, 4), candidates, ', or { triangles }');
   if (boundaryNormals !== undefined) {
     const what = `${n} numbers, three for each vertex`;
     checked.boundaryNormals = arrayOf(

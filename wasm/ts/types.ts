@@ -56,7 +56,10 @@ export interface CandidateList {
 }
 
 /**
- * Called while a span is computed, every 30 ms or so, and once when a surface has been found.
+ * Called while a span is computed, every 30 ms or so, and once when a surface has been found. What it
+ * throws ends the work, and the call throws it on. Once the work is done, as in that last call, it cannot
+ * be ended any more: the result is returned all the same, and what was thrown is reported as an error that
+ * nobody catches (`reportError`, or the console where there is no such function, as in Node).
  * @param fraction share of the work done, 0 to 1, never falling
  * @param bestCost cost of the best surface so far, `Infinity` while there is none
  * @param lowerBound proven lower bound on the optimal cost, 0 at first
@@ -106,7 +109,10 @@ export interface SpanOptions {
    * the limit comes only if there is none yet. Default `false`.
    */
   readonly bestSoFar?: boolean;
-  /** With `bestSoFar`: called with every surface that is better than the one before. */
+  /**
+   * With `bestSoFar`: called with every surface that is better than the one before. What it throws is
+   * dealt with as for `ProgressListener`.
+   */
   readonly onBest?: (span: Span) => void;
   /**
    * `[3m]` triangles of an earlier answer to the same loops, edited or not: the search for surfaces
@@ -252,7 +258,10 @@ export interface PolygonOptions {
   readonly trace?: boolean;
   /**
    * Whether the typed arrays of the result may be views of the core's memory, which spares a copy: they
-   * are good until soapfilm is called again. Default `false`. A worker's results are always one's own.
+   * are good until the next call of `triangulatePolygon`, `triangulatePolygons` or `triangulateGeoJSON`,
+   * even one that throws. What they hold afterwards is whatever the core has put there, or nothing, with
+   * length 0, once its memory has grown; `load({ checks: true })` makes sure of the latter. They are not to
+   * be written to or transferred. Default `false`. A worker's results are always one's own.
    */
   readonly borrow?: boolean;
   /** Memory that the core may use. Default 3 GiB. */
@@ -332,9 +341,14 @@ export interface PolygonState {
   readonly certified: boolean;
 }
 
-/** A GeoJSON object, as far as it matters here. */
+/** A GeoJSON object, as far as it matters here: those of `@types/geojson` are, and so are parsed ones. */
 export interface GeoJSONLike {
   readonly type: string;
+  readonly coordinates?: unknown;
+  readonly geometry?: unknown;
+  readonly geometries?: unknown;
+  readonly features?: unknown;
+  readonly properties?: unknown;
 }
 
 export interface GeoJSONTriangulation extends PolygonsTriangulation {
@@ -362,4 +376,10 @@ export interface LoadOptions {
    * library's own module.
    */
   readonly wasm?: WasmSource | Readonly<Partial<Record<Part, WasmSource>>>;
+  /**
+   * Whether to lend, with `borrow`, copies which the next call detaches, so that arrays that are used for
+   * too long are empty at once, and not just in rare cases wrong. For tests; results are then no quicker to
+   * get than one's own. Default: as it is, at first `false`. Workers lend nothing.
+   */
+  readonly checks?: boolean;
 }

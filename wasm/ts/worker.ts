@@ -9,6 +9,7 @@ import { kLoadOptions, kPolygonOptions, kPolygonsOptions, kSpanOptions } from '.
 import { flattenBatch, flattenPolygon, polygonOptionsOf, type FlatPolygons } from './polygon_input.js';
 import { Pool } from './pool.js';
 import { unpackErrors } from './protocol.js';
+import { tellEnd } from './report.js';
 import { spanOptionsOf } from './span_input.js';
 import type {
   GeoJSONLike,
@@ -113,9 +114,12 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
         },
         keepsBest: rest.bestSoFar,
       };
-      const span = (await pool.call('spanLoops', [input, rest], watch)) as Span | NoSpan;
-      if (!span.found || span.optimal || span.lowerBound >= bound) return span;
-      return { ...span, lowerBound: Math.min(bound, span.cost) };
+      let span = (await pool.call('spanLoops', [input, rest], watch)) as Span | NoSpan;
+      if (span.found && !span.optimal && span.lowerBound < bound) {
+        span = { ...span, lowerBound: Math.min(bound, span.cost) };
+      }
+      tellEnd(span, onProgress);
+      return span;
     },
     async triangulatePolygon(polygon, options = {}) {
       const { positions, ringStarts: starts, dim, points } = flattenPolygon(polygon, true);
