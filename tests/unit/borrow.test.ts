@@ -13,11 +13,14 @@ import { errorOf, rejectionOf } from '../support/errors.js';
 
 const kSquare = [[[0, 0], [1, 0], [1, 1], [0, 1]]];
 const kStar = [[[0, 0], [4, 0], [1, 3], [2, -1], [3, 3]]];
+const kGeoJSON = { type: 'Polygon', coordinates: kSquare };
 const kOptions = { output: 'strips', borrow: true } as const;
 
 type Arrays = Record<string, Float64Array | Uint32Array>;
-const arraysOf = (result: object): Arrays =>
-  Object.fromEntries(Object.entries(result).filter(([, value]) => ArrayBuffer.isView(value))) as Arrays;
+function arraysOf(result: object): Arrays {
+  const entries = Object.entries(result) as [string, Arrays[string]][];
+  return Object.fromEntries(entries.filter(([, value]) => ArrayBuffer.isView(value)));
+}
 const lengthsOf = (result: object): number[] => Object.values(arraysOf(result)).map(({ length }) => length);
 
 const lenders: [string, (options: object) => object][] = [
@@ -47,7 +50,7 @@ describe('checks', () => {
     const next: [string, () => unknown][] = [
       ['triangulatePolygon', () => triangulatePolygon(kSquare)],
       ['triangulatePolygons', () => triangulatePolygons([kSquare], { borrow: true })],
-      ['triangulateGeoJSON', () => triangulateGeoJSON({ type: 'Polygon', coordinates: kSquare })],
+      ['triangulateGeoJSON', () => triangulateGeoJSON(kGeoJSON)],
       ['one that fails', () => errorOf(() => triangulatePolygon(kStar))],
     ];
     for (const [name, use] of next) {

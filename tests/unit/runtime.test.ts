@@ -170,13 +170,16 @@ describe('statuses', () => {
 /** With memory for typed arrays at an end: the `nth` copy of one fails. */
 function withoutRoom<T>(nth: number, call: () => T): T {
   let count = 0;
-  const slice = Float64Array.prototype.slice;
+  const original = Object.getOwnPropertyDescriptor(
+    Object.getPrototypeOf(Float64Array.prototype),
+    'slice',
+  )?.value as (this: Float64Array, ...args: unknown[]) => Float64Array<ArrayBuffer>;
   const spy = vi.spyOn(Float64Array.prototype, 'slice').mockImplementation(function (
     this: Float64Array,
     ...args
   ) {
     if (++count === nth) throw new RangeError('Array buffer allocation failed');
-    return slice.apply(this, args);
+    return original.apply(this, args);
   });
   try {
     return call();

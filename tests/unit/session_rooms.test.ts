@@ -5,7 +5,7 @@ import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { promisify } from 'node:util';
 import { load, PolygonSession, spanLoops, type PolygonSet } from 'soapfilm';
-import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, test, vi } from 'vitest';
 import { errorOf } from '../support/errors.js';
 import { Fault, faultyCore } from '../support/faulty_core.js';
 
@@ -97,6 +97,26 @@ describe('a crash in one session', () => {
       if (![a, b, c].includes(session)) expect(around(session)).toEqual([2, 0]);
     }
     // Their instance is gone: there is room for another.
+    expect(around(open(1)[0])).toEqual([1, 0]);
+  });
+});
+
+describe('an engine without room for another instance', () => {
+  afterEach(() => {
+    vi.restoreAllMocks();
+  });
+
+  test('sessions share those there are; without any, out-of-memory, and later ones are opened', () => {
+    const [a] = open(1);
+    const spy = vi.spyOn(WebAssembly, 'Instance').mockImplementation(function () {
+      throw new RangeError('Cannot allocate Wasm memory for new instance');
+    });
+    open(2);
+    expect(around(a)).toEqual([3, 0]);
+    for (const session of opened.splice(0)) session.dispose();
+    expect(errorOf(() => open(1)).code).toBe('out-of-memory');
+    expect(spy).toHaveBeenCalledTimes(3);
+    spy.mockRestore();
     expect(around(open(1)[0])).toEqual([1, 0]);
   });
 });

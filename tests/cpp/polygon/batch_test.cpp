@@ -56,7 +56,8 @@ TEST_CASE("batch: what each polygon gives by itself, in the numbers of all") {
     CAPTURE(i);
     Polygons all;
     for (uint32_t p = 2 + random.below(5); p > 0; --p)
-      all.add(random.chance(0.7) ? smallPolygon(random) : garbage(1 + random.below(2), 5, 4, random));
+      all.add(random.chance(0.7) ? smallPolygon(random)
+                                 : garbage(1 + random.below(2), 5, 4, random));
     sf::PolygonOptions options;
     options.delaunay = random.chance(0.5);
     // All in one go, and one after the other.
