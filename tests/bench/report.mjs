@@ -178,6 +178,25 @@ export function dragLines({ vertices, candidates, seconds }) {
   ];
 }
 
+const kTransferGoal = 0.008;
+/** Calls until the engine has compiled what matters: too short a work for `kWarmUp`. */
+const kTransferWarmUp = 10;
+
+/** How long a caller is held up while loops go to a worker, form by form. */
+export function transferLines({ vertices, seconds }) {
+  const warm = (form) => seconds[form].slice(kTransferWarmUp);
+  const rows = Object.keys(seconds).map((form) => {
+    const [least, median, most] = [0.05, 0.5, 0.95].map((share) => time(quantile(warm(form), share)));
+    return `  ${left(form, 24)} median ${median}, 5 % to 95 % ${least} to ${most}, first ${time(seconds[form][0])}`;
+  });
+  const isMet = quantile(warm('arrays of numbers'), 0.5) <= kTransferGoal;
+  return [
+    `The caller's time until ${vertices} vertices are on their way to a worker:`,
+    ...rows,
+    `  goal for arrays of numbers: ≤ ${time(kTransferGoal)}: ${verdict(isMet)}`,
+  ];
+}
+
 /** Optimality of a row of the suite of figure 9 in a smaller space; null where it holds no surface. */
 export function optimality({ weight, interiorEdges, all, ...spaces }, space) {
   const { cost } = spaces[space];

@@ -114,6 +114,8 @@ function judgeIncludes({ path: file, text }: SourceFile): string[] {
   if (!allowed) return [`wasm/src/${folder} has no place among the layers`];
   return names.flatMap((name) => {
     if (name === 'soapfilm.h') return folder === 'abi' ? [] : ['only abi includes soapfilm.h'];
+    // What a call ends with is the same inside and outside.
+    if (name === 'soapfilm_tables.h' && file === 'wasm/src/base/status.h') return [];
     const target = path.posix.dirname(name);
     if (!name.includes('/') || name.startsWith('.')) {
       return [`includes "${name}" without its folder`];

@@ -45,8 +45,8 @@ describe('triangulateGeoJSON', () => {
     const features = [feature(null), feature(kMulti), feature(kLine), feature(kPolygon)];
     const collection = { type: 'FeatureCollection', features };
     expect(areas(collection)).toEqual([[], [1, 4], [], [72]]);
-    expect(areas({ type: 'FeatureCollection', features: [] } as GeoJSONLike)).toEqual([]);
-    expect(areas({ type: 'Polygon', coordinates: [] } as GeoJSONLike)).toEqual([[0]]);
+    expect(areas({ type: 'FeatureCollection', features: [] })).toEqual([]);
+    expect(areas({ type: 'Polygon', coordinates: [] })).toEqual([[0]]);
   });
 
   test('altitudes: are left out', () => {

@@ -92,6 +92,6 @@ describe('in a worker', () => {
 
   test('createWorker: an unknown option is bad-option and named', async () => {
     const error = await rejectionOf(createWorker({ threads: 2 } as never));
-    expect(error.message).toContain('`threads` is not an option here; there are parts, wasm, size');
+    expect(error.message).toContain('`threads` is not an option here; there are parts, wasm, checks, size');
   });
 });

@@ -79,7 +79,7 @@ describe('triangulatePolygon', () => {
     const typed = polygon.map((ring) => ring.map((point) => Float64Array.from(point)));
     const others: PolygonLike[] = [
       polygon,
-      typed as unknown as PolygonLike,
+      typed,
       { coordinates: Array.from(flat.positions), holeIndices },
       { coordinates: flat.positions, holeIndices: Uint32Array.from(holeIndices), dim: 2 },
       { coordinates: Float32Array.from(flat.positions).map((x) => x), holeIndices },

@@ -15,7 +15,7 @@ import {
   type Span,
   type SpanOptions,
 } from 'soapfilm';
-import { afterAll, beforeAll, describe, expect, test, vi } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, test, vi } from 'vitest';
 import { countingClock } from '../support/clock.js';
 import { errorOf, rejectionOf } from '../support/errors.js';
 import { Fault, faultyCore } from '../support/faulty_core.js';
@@ -165,6 +165,144 @@ describe('statuses', () => {
     const big = { positions, starts: Uint32Array.of(0, 10_000) };
     expect(errorOf(() => spanLoops(big)).code).toBe('out-of-memory');
     expect(calls()).toBe(before + 1);
+  });
+});
+
+/** With memory for typed arrays at an end: the `nth` copy of one fails. */
+function withoutRoom<T>(nth: number, call: () => T): T {
+  let count = 0;
+  const original = Object.getOwnPropertyDescriptor(
+    Object.getPrototypeOf(Float64Array.prototype),
+    'slice',
+  )?.value as (this: Float64Array, ...args: unknown[]) => Float64Array<ArrayBuffer>;
+  const spy = vi.spyOn(Float64Array.prototype, 'slice').mockImplementation(function (
+    this: Float64Array,
+    ...args
+  ) {
+    if (++count === nth) throw new RangeError('Array buffer allocation failed');
+    return original.apply(this, args);
+  });
+  try {
+    return call();
+  } finally {
+    spy.mockRestore();
+    expect(count).toBeGreaterThanOrEqual(nth);
+  }
+}
+
+const mine = new Error('mine');
+const throwMine = (): never => {
+  throw mine;
+};
+
+function detached(): Uint32Array {
+  const array = new Uint32Array(3);
+  structuredClone(array.buffer, { transfer: [array.buffer] });
+  return array;
+}
+
+describe('memory of a call', () => {
+  const outcomes: [string, () => unknown, unknown][] = [
+    ['success', () => provoke(Fault.none), undefined],
+    ['a status', () => provoke(Fault.repeatedVertex), 'repeated-vertex'],
+    ['an unknown status', () => provoke(Fault.unknownStatus), 'crashed'],
+    ['a limit', () => provoke(Fault.runUntilStopped, { maxSeconds: 0 }), 'time-limit'],
+    ['a limit that the core ignores', () => provoke(Fault.ignoreStop, { maxSeconds: 0 }), 'time-limit'],
+    [
+      'a limit that leaves the best so far',
+      () => provoke(Fault.ignoreStop, { maxSeconds: 0, bestSoFar: true }),
+      undefined,
+    ],
+    ['a listener that throws', () => provoke(Fault.runUntilStopped, { onProgress: throwMine }), mine],
+    [
+      'a listener that throws and a core that does not care',
+      () => provoke(Fault.ignoreStop, { onProgress: throwMine, bestSoFar: true }),
+      mine,
+    ],
+    ['a result that cannot be copied', () => withoutRoom(1, () => provoke(Fault.none)), 'out-of-memory'],
+    [
+      'a result on the way',
+      () => provoke(Fault.resultThenDone, { bestSoFar: true, onBest: () => undefined }),
+      undefined,
+    ],
+    [
+      'a result that cannot be copied after one on the way',
+      () => withoutRoom(2, () => provoke(Fault.resultThenDone, { onBest: () => undefined })),
+      'out-of-memory',
+    ],
+    ['an input that is detached', () => provoke(Fault.none, { startFrom: detached() }), 'bad-option'],
+  ];
+  test.each(outcomes)('%s: all of it is freed, and the instance stays', (_, call, expected) => {
+    const before = calls();
+    const log = vi.spyOn(console, 'error').mockImplementation(() => undefined);
+    let thrown: unknown;
+    try {
+      call();
+    } catch (error) {
+      thrown = error instanceof SoapfilmError ? error.code : error;
+    }
+    expect(thrown).toBe(expected);
+    expect(log).not.toHaveBeenCalled();
+    log.mockRestore();
+    expect(leaks()).toBe(0);
+    expect(calls()).toBeGreaterThan(before + 1);
+  });
+
+  test('a result on the way that cannot be copied: the error for it, nothing is left', () => {
+    const onBest = vi.fn();
+    vi.spyOn(console, 'error').mockImplementation(() => undefined);
+    // The core is done all the same, so its result is the answer.
+    const span = withoutRoom(1, () => provoke(Fault.resultThenDone, { onBest }));
+    expect(span.found).toBe(true);
+    expect(onBest).not.toHaveBeenCalled();
+    expect(console.error).toHaveBeenCalledExactlyOnceWith(
+      expect.objectContaining({ code: 'out-of-memory' }),
+    );
+    vi.restoreAllMocks();
+    expect(leaks()).toBe(0);
+  });
+
+  test('a trap when the result is freed: crashed, and a new instance', () => {
+    expect(errorOf(() => provoke(Fault.trapWhenFreed)).code).toBe('crashed');
+    expect(calls()).toBe(1);
+  });
+
+  test('a trap when a result on the way is read: crashed although the call goes on, and a new instance', () => {
+    const onBest = vi.fn();
+    const error = errorOf(() => provoke(Fault.trapWhenRead, { onBest }));
+    expect(error.code).toBe('crashed');
+    expect(error.cause).toBeInstanceOf(WebAssembly.RuntimeError);
+    expect(onBest).not.toHaveBeenCalled();
+    expect(calls()).toBe(1);
+  });
+});
+
+describe('listeners that throw when the work is done', () => {
+  afterEach(() => {
+    vi.unstubAllGlobals();
+    vi.restoreAllMocks();
+  });
+
+  const listeners: [string, SpanOptions, number][] = [
+    ['onProgress, told of the end', { onProgress: throwMine }, Fault.none],
+    ['onBest, told of the last surface', { onBest: throwMine }, Fault.resultThenDone],
+    ['both', { onProgress: throwMine, onBest: throwMine }, Fault.resultThenDone],
+  ];
+  test.each(listeners)('%s: the result comes back, the error goes to reportError', (_, options, fault) => {
+    const report = vi.fn();
+    vi.stubGlobal('reportError', report);
+    const before = calls();
+    const span = provoke(fault, options);
+    expect(span).toMatchObject({ found: true, cost: before + 1 });
+    expect(report.mock.calls).toEqual(Object.keys(options).map(() => [mine]));
+    expect(leaks()).toBe(0);
+  });
+
+  test('without reportError: to the console', () => {
+    vi.stubGlobal('reportError', undefined);
+    const log = vi.spyOn(console, 'error').mockImplementation(() => undefined);
+    expect(provoke(Fault.none, { onProgress: throwMine }).found).toBe(true);
+    expect(log).toHaveBeenCalledExactlyOnceWith(mine);
   });
 });
 

@@ -6,7 +6,7 @@ import path from 'node:path';
 import { promisify } from 'node:util';
 import { SoapfilmError, type LoopSet, type Span, type SpanOptions } from 'soapfilm';
 import { createWorker, type CallOptions, type Film } from 'soapfilm/worker';
-import { afterEach, beforeAll, describe, expect, test } from 'vitest';
+import { afterEach, beforeAll, describe, expect, test, vi } from 'vitest';
 import { rejectionOf } from '../support/errors.js';
 import { Fault, faultyCore } from '../support/faulty_core.js';
 
@@ -134,11 +134,12 @@ describe('errors', () => {
     expect(message).toMatch(/^Loop 1, vertex 2 /);
   });
 
-  test('input that cannot be sent: bad-option, and the next call works', async () => {
+  test('input that cannot be sent: is refused as by the synchronous call, and the next call works', async () => {
     const film = await newFilm();
     const odd = { area: (() => 1) as unknown as number };
     const error = await rejectionOf(film.spanLoops(kLoops, { weights: odd }));
-    expect(error.code).toBe('bad-option');
+    expect(error.code).toBe('bad-weights');
+    expect(error.message).toContain('`weights.area`');
     expect((await provoke(film, Fault.none)).cost).toBe(1);
   });
 
@@ -170,6 +171,28 @@ describe('progress', () => {
     };
     await expect(provoke(film, Fault.runUntilStopped, { onProgress })).rejects.toBe(mine);
     expect((await provoke(film, Fault.none)).found).toBe(true);
+  });
+});
+
+describe('listeners that throw when the work is done', () => {
+  test('onProgress, told of the end: the result comes back, the error is reported', async () => {
+    const film = await newFilm();
+    const mine = new Error('mine');
+    const seen: number[] = [];
+    const onProgress = (fraction: number): void => {
+      seen.push(fraction);
+      throw mine;
+    };
+    const log = vi.spyOn(console, 'error').mockImplementation(() => undefined);
+    try {
+      expect((await provoke(film, Fault.none, { onProgress })).cost).toBe(1);
+      expect(seen).toEqual([1]);
+      expect(log).toHaveBeenCalledExactlyOnceWith(mine);
+    } finally {
+      log.mockRestore();
+    }
+    // The thread is still the same.
+    expect((await provoke(film, Fault.none)).cost).toBe(2);
   });
 });
 

@@ -21,6 +21,7 @@ import {
   readmeTable,
   row,
   summary,
+  transferLines,
 } from '../../tests/bench/report.mjs';
 import { polygonTable } from '../../tests/bench/polygon_report.mjs';
 import { buildLibrary, buildPreset } from './build.mjs';
@@ -84,6 +85,11 @@ async function measureDrag(loops) {
   return JSON.parse((await run(process.execPath, args, { capture: true })).output);
 }
 
+async function measureTransfer() {
+  const args = [path.join(bench, 'transfer.bench.mjs')];
+  return JSON.parse((await run(process.execPath, args, { capture: true })).output);
+}
+
 /** Costs in the candidate spaces. Where times do not matter a process for each processor. */
 async function measureOptimality(loopSets, name, weights, count = 1) {
   const files = loopSets.map((loops, i) => writeCurves(`${name}_${i}`, loops));
@@ -120,6 +126,10 @@ async function measure(words, wantsAll) {
     found.drag = await measureDrag(dragLoops());
     print('', dragLines(found.drag));
   }
+  if (wanted('transfer to a worker')) {
+    found.transfer = await measureTransfer();
+    print('', transferLines(found.transfer));
+  }
   if (wantsAll || (words.length > 0 && wanted('optimality'))) {
     found.optimality = {};
     for (const kind of ['single', 'pairs']) {
@@ -146,7 +156,7 @@ async function measure(words, wantsAll) {
   const load = found.load.map((l) => l.toFixed(1)).join(' to ');
   say(`\nLoad ${load} on ${found.processors} processors, Node ${found.node}.`);
   say(`Written: ${path.relative(root, results)}`);
-  if (chosen.length === 0 && !found.drag && !found.optimality && !found.near) {
+  if (chosen.length === 0 && !found.drag && !found.transfer && !found.optimality && !found.near) {
     throw new Failure('No case has that name.');
   }
   const isBroken = (c) => [c.native, c.wasm].some((side) => side?.problem === 'FAILED');

@@ -5,6 +5,7 @@
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { writeBorder } from './border.mjs';
 import { Failure, buildRoot, jobs, main, root, run, runTool, say } from './run.mjs';
 import { listFiles, unlessUpToDate, writeIfChanged } from './stamp.mjs';
 import { checkNode, emscriptenEnvironment, ensureNodeModules, ensureTools } from './tools.mjs';
@@ -13,7 +14,7 @@ const dist = path.join(root, 'wasm/dist');
 /** The core's parts, each a CMake target. */
 const modules = ['loops.wasm', 'polygons.wasm'];
 const built = modules.map((name) => `wasm/dist/${name}`);
-const scripts = ['wasm/scripts/build.mjs'];
+const scripts = ['wasm/scripts/build.mjs', 'wasm/scripts/border.mjs'];
 const packages = ['package.json', 'package-lock.json'];
 
 /**
@@ -59,10 +60,11 @@ export async function buildCore() {
   });
 }
 
-/** wasm/ts by the TypeScript compiler, module by module; then the modules that are generated. */
+/** The tables of the border; wasm/ts by the TypeScript compiler, module by module; then what is generated of it. */
 export async function buildLibrary() {
   await buildCore();
   await ensureNodeModules();
+  writeBorder();
   const step = {
     inputs: ['wasm/ts', 'wasm/tsconfig.json', 'tsconfig.json', ...packages, ...scripts, ...built],
     outputs: ['wasm/dist/index.js', 'wasm/dist/index.d.ts'],

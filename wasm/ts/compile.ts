@@ -1,7 +1,8 @@
 // Where the core's parts come from: sources, compilation, and the copies inside the library's own scripts.
+import { flagOf, guarded, mustBe, optionsOf, type Given } from './check.js';
 import { SoapfilmError } from './errors.js';
 import { readFrom } from './host.js';
-import { badOption, checkNames, kParts } from './options.js';
+import { kParts } from './options.js';
 import type { LoadOptions, Part, WasmSource } from './types.js';
 
 /** Compiled parts, for other threads. */
@@ -32,17 +33,37 @@ export async function compile(options: LoadOptions = {}): Promise<Modules> {
   return Object.fromEntries(await Promise.all(parts)) as Modules;
 }
 
-/** The parts wanted, each with where it is said to be. */
-export function partsOf({ parts = kParts, wasm }: LoadOptions): [Part, WasmSource | undefined][] {
-  const isPart = (part: Part): boolean => kParts.includes(part);
-  if (!Array.isArray(parts) || parts.length === 0 || !parts.every(isPart)) {
-    throw badOption('parts', kParts, ', or several, in an array');
-  }
-  const given = Object(wasm) as Partial<Record<Part, WasmSource>>;
-  const isOne = !kParts.some((part) => part in given);
-  if (!isOne) checkNames(given, { loops: true, polygons: true }, 'wasm.');
-  const sources = isOne ? { [parts[0]]: wasm } : given;
-  return parts.map((part: Part) => [part, sources[part]]);
+/**
+ * The parts wanted, each with where it is said to be.
+ * @throws SoapfilmError `bad-option`
+ */
+export function partsOf({ parts, wasm, checks }: Given<LoadOptions>): [Part, WasmSource | undefined][] {
+  flagOf('checks', checks);
+  const isPart = (part: unknown): part is Part => kParts.includes(part as Part);
+  const named = guarded('bad-option', 'parts', () => {
+    const list: readonly unknown[] = parts === undefined ? kParts : Array.isArray(parts) ? parts : [];
+    const known: Part[] = [];
+    // By index: iterators pass over what is missing.
+    for (let i = 0; i < list.length && isPart(list[i]); i++) known.push(list[i] as Part);
+    if (known.length > 0 && known.length === list.length) return known;
+    const names = kParts.map((part) => `'${part}'`).join(', ');
+    throw mustBe('bad-option', 'parts', `one of ${names}, or several, in an array`, parts);
+  });
+  const sources: Given<Record<Part, WasmSource>> =
+    wasm === undefined || isSource('wasm', wasm)
+      ? { [named[0]]: wasm }
+      : optionsOf<Record<Part, WasmSource>>(wasm, { loops: true, polygons: true }, 'wasm');
+  return named.map((part) => {
+    const source = sources[part];
+    if (source === undefined || isSource(`wasm.${part}`, source)) return [part, source];
+    throw mustBe('bad-option', `wasm.${part}`, 'a URL, a response, bytes or a compiled module', source);
+  });
+}
+
+function isSource(name: string, value: unknown): value is WasmSource {
+  if (typeof value !== 'object' || value === null) return typeof value === 'string';
+  const kind = guarded('bad-option', name, () => Object.prototype.toString.call(value));
+  return ArrayBuffer.isView(value) || /^\[object (URL|Response|ArrayBuffer|WebAssembly\.Module)\]$/.test(kind);
 }
 
 /**

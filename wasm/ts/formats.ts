@@ -1,8 +1,17 @@
 // Loops and surfaces as text: `.curve`, JSON and OBJ.
-import { SoapfilmError, type ErrorPlace } from './errors.js';
+import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
 import { jsonLine } from './jsonline.js';
-import { toLoopSet } from './loopset.js';
-import { checkNames } from './options.js';
+import {
+  arrayOf,
+  choiceOf,
+  fieldsOf,
+  guarded,
+  mustBe,
+  optionsOf,
+  show,
+  viewOf,
+} from './check.js';
+import { flatPositions, flatStarts, flattenLoops } from './flatten.js';
 import type { LoopSet, LoopsLike, Span } from './types.js';
 
 /**
@@ -34,35 +43,43 @@ export function parseLoops(
   data: string | ArrayBuffer | Uint8Array,
   options: { readonly format?: LoopFormat } = {},
 ): LoopFile {
-  checkNames(options, { format: true });
-  const text = (typeof data === 'string' ? data : new TextDecoder().decode(data)).replace(/^\ufeff/, '');
+  const { format } = optionsOf(options, { format: true });
+  const text = guarded('bad-file', 'data', () => textOf(data)).replace(/^\ufeff/, '');
   if (text.includes('\0')) fail('This is not a text file');
   const parsers = { curve: parseCurve, json: parseJson, obj: parseObj };
-  const format = options.format ?? recognise(text);
-  if (!Object.hasOwn(parsers, format)) {
-    throw new SoapfilmError('bad-option', `\`format\` is 'curve', 'json' or 'obj'`);
-  }
-  return parsers[format](text);
+  return parsers[format === undefined ? recognise(text) : choiceOf('format', kFormats, format)](text);
+}
+
+const kFormats: readonly LoopFormat[] = ['curve', 'json', 'obj'];
+
+function textOf(data: unknown): string {
+  if (typeof data === 'string') return data;
+  const isBuffer = Object.prototype.toString.call(data) === '[object ArrayBuffer]';
+  // Of shared memory a copy, which decoders insist on.
+  const bytes = isBuffer ? new Uint8Array(data as ArrayBuffer) : viewOf(['Uint8Array'], data)?.slice();
+  if (!bytes) throw mustBe('bad-file', 'data', 'text, an ArrayBuffer or a Uint8Array', data);
+  return new TextDecoder().decode(bytes);
 }
 
 /**
  * A file that `parseLoops` reads back exactly. A `name` that comes with the loops is kept, except
  * in `.curve`, which has no place for it.
  *
- * @throws SoapfilmError `bad-loops`, `bad-starts`, `not-finite` (`.loop`, `.vertex`)
+ * @throws SoapfilmError `bad-loops`, `bad-starts`, `not-finite` (`.loop`, `.vertex`), `bad-option`
  */
 export function formatLoops(
   loops: LoopsLike | LoopFile,
   format: LoopFormat = 'curve',
 ): string {
-  const { positions, starts } = toLoopSet(loops);
+  const chosen = choiceOf('format', kFormats, format);
+  const { positions, starts } = flattenLoops(loops);
+  const name = nameOf(loops);
   const written = Array.from(starts.subarray(1), (end, loop) =>
     Array.from({ length: end - starts[loop] }, (_, vertex) =>
       point(positions, starts[loop] + vertex, { loop, vertex }),
     ),
   );
-  const name = 'name' in loops ? loops.name : undefined;
-  switch (format) {
+  switch (chosen) {
     case 'curve': {
       const lines = written.flatMap((points) => [
         String(points.length),
@@ -84,9 +101,18 @@ export function formatLoops(
       const vertices = written.flatMap((points) => points.map((xyz) => `v ${xyz.join(' ')}`));
       return [...objHead(name), ...vertices, ...lines, ''].join('\n');
     }
-    default:
-      throw new SoapfilmError('bad-option', `\`format\` is 'curve', 'json' or 'obj'`);
   }
+}
+
+/** The name that comes with loops in flat arrays. */
+function nameOf(loops: unknown): string | undefined {
+  if (Array.isArray(loops)) return undefined;
+  return textOption('bad-loops', 'loops.name', fieldsOf(loops, { name: true }, 'loops', 'bad-loops').name);
+}
+
+function textOption(code: ErrorCode, option: string, value: unknown): string | undefined {
+  if (value === undefined || typeof value === 'string') return value;
+  throw mustBe(code, option, 'a string', value);
 }
 
 /**
@@ -97,19 +123,19 @@ export function formatLoops(
  *   indices of the boundary loops, `starts` [k + 1] offsets into them
  * @param options `name` of the object; `precision`: significant digits, 1 to 17, default as many
  *   as it takes to read back the same numbers
- * @throws SoapfilmError `not-finite` (`.vertex`), `bad-option`
+ * @throws SoapfilmError `not-finite` (`.vertex`), `bad-starts`; `bad-option` for arrays of the wrong kind,
+ *   indices of no vertex, and options out of their range
  */
 export function formatObj(
-  surface: Pick<Span, 'positions' | 'triangles'> & Partial<Pick<Span, 'loopVertices' | 'starts'>>,
-  options: { readonly name?: string; readonly precision?: number } = {},
+  surface: Surface,
+  options: FormatObjOptions = {},
 ): string {
-  checkNames(options, { name: true, precision: true });
-  const { positions, triangles, loopVertices, starts } = surface;
-  const { name, precision } = options;
-  if (precision !== undefined && !(Number.isInteger(precision) && precision >= 1 && precision <= 17)) {
-    throw new SoapfilmError('bad-option', '`precision` is a whole number from 1 to 17');
+  const { name, precision } = optionsOf<FormatObjOptions>(options, { name: true, precision: true });
+  const lines = objHead(textOption('bad-option', 'name', name));
+  if (precision !== undefined && !isPrecision(precision)) {
+    throw mustBe('bad-option', 'precision', 'a whole number from 1 to 17', precision);
   }
-  const lines = objHead(name);
+  const { positions, triangles, loopVertices, starts } = surfaceOf(surface);
   for (let vertex = 0; vertex < positions.length / 3; vertex++) {
     lines.push(`v ${point(positions, vertex, { vertex }, precision).join(' ')}`);
   }
@@ -118,11 +144,47 @@ export function formatObj(
   }
   if (loopVertices && starts) {
     starts.subarray(1).forEach((end, loop) => {
+      if (end === starts[loop]) return;
       const closed = [...loopVertices.subarray(starts[loop], end), loopVertices[starts[loop]]];
       lines.push(`l ${closed.map((vertex) => vertex + 1).join(' ')}`);
     });
   }
   return [...lines, ''].join('\n');
+}
+
+type Surface = Pick<Span, 'positions' | 'triangles'> & Partial<Pick<Span, 'loopVertices' | 'starts'>>;
+
+export interface FormatObjOptions {
+  readonly name?: string;
+  readonly precision?: number;
+}
+
+const isPrecision = (value: unknown): value is number =>
+  typeof value === 'number' && Number.isInteger(value) && value >= 1 && value <= 17;
+
+/** A surface whose arrays are of the right kind and fit each other. */
+function surfaceOf(surface: unknown): Surface {
+  const code = 'bad-option';
+  const given = fieldsOf<Required<Surface>>(
+    surface,
+    { positions: true, triangles: true, loopVertices: true, starts: true },
+    'surface',
+    code,
+  );
+  const positions = flatPositions(given.positions, 3, false, code, 'surface.positions');
+  const indices = (name: 'triangles' | 'loopVertices', what: string, size: number): Uint32Array => {
+    const path = `surface.${name}`;
+    const fits = (length: number): boolean => length % size === 0;
+    const array = arrayOf('Uint32Array', given[name], false, code, path, what, fits);
+    const at = array.findIndex((vertex) => vertex >= positions.length / 3);
+    if (at < 0) return array;
+    throw mustBe(code, `${path}[${at}]`, 'the index of a vertex', array[at]);
+  };
+  const triangles = indices('triangles', 'three indices for each triangle', 3);
+  if (given.loopVertices === undefined || given.starts === undefined) return { positions, triangles };
+  const loopVertices = indices('loopVertices', 'indices of vertices', 1);
+  const starts = flatStarts(given.starts, loopVertices.length, code, 'surface.starts');
+  return { positions, triangles, loopVertices, starts };
 }
 
 const objHead = (name: string | undefined): string[] =>
@@ -151,12 +213,9 @@ function fail(message: string, place: ErrorPlace = {}): never {
   throw new SoapfilmError('bad-file', line + message, place);
 }
 
-const quote = (word: string): string =>
-  JSON.stringify(word.length > 40 ? `${word.slice(0, 40)}…` : word);
-
 function coordinate(word: string, place: ErrorPlace): number {
   const value = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(word) ? Number(word) : NaN;
-  return Number.isFinite(value) ? value : fail(`${quote(word)} is not a finite number`, place);
+  return Number.isFinite(value) ? value : fail(`${show(word)} is not a finite number`, place);
 }
 
 function recognise(text: string): LoopFormat {
@@ -195,7 +254,7 @@ function parseCurve(text: string): LoopSet {
     const word = next(what, place);
     return /^\d{1,10}$/.test(word)
       ? Number(word)
-      : fail(`${quote(word)} is not ${what}`, { ...place, line });
+      : fail(`${show(word)} is not ${what}`, { ...place, line });
   };
   const loopCount = count('the number of loops');
   if (loopCount === 0) fail('The file holds no loops', { line });
@@ -219,11 +278,11 @@ function parseCurve(text: string): LoopSet {
   if (starts[loopCount] !== total) {
     fail(`The loops have ${starts[loopCount]} vertices, not ${total}`, { line: totalLine });
   }
-  if (used < words.length) fail(`${quote(words[used])} follows after the last vertex`, { line });
+  if (used < words.length) fail(`${show(words[used])} follows after the last vertex`, { line });
   const rest = lines.next();
   if (!rest.done) {
     const [word] = rest.value.words;
-    fail(`${quote(word)} follows after the last vertex`, { line: rest.value.line });
+    fail(`${show(word)} follows after the last vertex`, { line: rest.value.line });
   }
   return { positions: new Float64Array(coordinates), starts: new Uint32Array(starts) };
 }
@@ -313,7 +372,7 @@ function parseObj(text: string): LoopFile {
 
 /** The index from 0 of an OBJ reference: `5`, `5/2`, or `-1` for the latest vertex. */
 function objIndex(word: string, vertexCount: number, line: number): number {
-  if (!/^-?\d{1,10}(\/\d*)?$/.test(word)) fail(`${quote(word)} is not a vertex index`, { line });
+  if (!/^-?\d{1,10}(\/\d*)?$/.test(word)) fail(`${show(word)} is not a vertex index`, { line });
   const index = Number.parseInt(word, 10);
   if (index === 0 || index < -vertexCount) fail(`There is no vertex ${index}`, { line });
   return index > 0 ? index - 1 : vertexCount + index;

@@ -1,7 +1,9 @@
 // triangulateGeoJSON: the polygons of features and geometries, feature by feature.
+import { guarded, mustBe, optionsOf } from './check.js';
 import { SoapfilmError } from './errors.js';
-import { isList } from './loopset.js';
-import { flatten, triangulate } from './polygon.js';
+import { kPolygonsOptions } from './options.js';
+import { triangulate } from './polygon.js';
+import { flattenPolygons, polygonOptionsOf, type FlatPolygons } from './polygon_input.js';
 import type { GeoJSONLike, GeoJSONTriangulation, PolygonsOptions } from './types.js';
 
 /** Types of geometries that have no inside. */
@@ -19,42 +21,75 @@ export function triangulateGeoJSON(
   geojson: GeoJSONLike,
   options: PolygonsOptions = {},
 ): GeoJSONTriangulation {
-  const { polygons, featureStarts } = collect(geojson);
-  const flat = flatten(polygons, 2);
-  return { ...triangulate(flat, options, true), positions: flat.positions, featureStarts };
+  const { flat, featureStarts } = flattenGeoJSON(geojson);
+  const checked = polygonOptionsOf(optionsOf(options, kPolygonsOptions));
+  return { ...triangulate(flat, checked, true), positions: flat.positions, featureStarts };
 }
 
-function collect(geojson: unknown): { polygons: unknown[]; featureStarts: Uint32Array } {
-  const { type, features } = (geojson ?? {}) as { type?: unknown; features?: unknown };
-  const roots = type === 'FeatureCollection' ? list(features, 'features') : [geojson];
+/** More geometries than any text holds; objects that are listed again and again may come to that. */
+const kMostGeometries = 2 ** 24;
+
+/**
+ * The polygons of GeoJSON as flat arrays, and where those of each feature begin.
+ * @throws SoapfilmError `bad-polygon`; `too-large`
+ */
+export function flattenGeoJSON(geojson: GeoJSONLike): { flat: FlatPolygons; featureStarts: Uint32Array } {
+  const { polygons, featureStarts } = guarded('bad-polygon', 'geojson', () => collect(geojson));
+  return { flat: flattenPolygons(polygons, 'geojson', 2), featureStarts: Uint32Array.from(featureStarts) };
+}
+
+function collect(geojson: GeoJSONLike): { polygons: unknown[]; featureStarts: number[] } {
+  const { type, features } = readObject(geojson);
+  const roots = type === 'FeatureCollection' ? listOf(features, 'geojson.features') : [geojson];
   const polygons: unknown[] = [];
-  const featureStarts = new Uint32Array(roots.length + 1);
+  const featureStarts = [0];
+  let count = 0;
   for (let f = 0; f < roots.length; f++) {
-    // The next is at the end: collections may be nested to any depth.
+    // The next is at the end: collections may be nested to any depth. Those that are open are around the
+    // next one, and end where they are found again on the list.
     const todo: unknown[] = [roots[f]];
+    const open = new Set<unknown>();
     while (todo.length > 0) {
       const next = todo.pop();
-      const { type, geometry, geometries, coordinates } = (next ?? {}) as Record<string, unknown>;
-      if (type === 'Feature') {
+      if (open.delete(next)) continue;
+      if (++count > kMostGeometries) throw tooMany();
+      const { type, geometry, geometries, coordinates } = readObject(next);
+      if (type === 'Feature' || type === 'GeometryCollection') {
         // Null where a feature has no place.
-        if (geometry !== null) todo.push(geometry);
-      } else if (type === 'GeometryCollection') {
-        const parts = list(geometries, 'geometries');
-        for (let i = parts.length - 1; i >= 0; i--) todo.push(parts[i]);
+        const parts =
+          type === 'Feature' ? [geometry].filter((part) => part !== null) : listOf(geometries, 'geometries` of `geojson');
+        open.add(next);
+        todo.push(next);
+        if (count + parts.length > kMostGeometries) throw tooMany();
+        for (let i = parts.length - 1; i >= 0; i--) {
+          if (open.has(parts[i])) {
+            throw new SoapfilmError('bad-polygon', `A collection of feature ${f} in \`geojson\` contains itself`);
+          }
+          todo.push(parts[i]);
+        }
       } else if (type === 'Polygon') polygons.push(coordinates);
       else if (type === 'MultiPolygon') {
-        const parts = list(coordinates, 'coordinates');
+        const parts = listOf(coordinates, 'coordinates` of `geojson');
+        if ((count += parts.length) > kMostGeometries) throw tooMany();
         for (let i = 0; i < parts.length; i++) polygons.push(parts[i]);
       } else if (typeof type !== 'string' || !kThin.test(type)) {
-        throw new SoapfilmError('bad-polygon', `Feature ${f} has no GeoJSON geometry`);
+        throw new SoapfilmError('bad-polygon', `Feature ${f} of \`geojson\` has no GeoJSON geometry`);
       }
     }
-    featureStarts[f + 1] = polygons.length;
+    featureStarts.push(polygons.length);
   }
   return { polygons, featureStarts };
 }
 
-function list(value: unknown, name: string): ArrayLike<unknown> {
-  if (isList(value)) return value;
-  throw new SoapfilmError('bad-polygon', `\`${name}\` must be an array`);
+const tooMany = (): SoapfilmError =>
+  new SoapfilmError('too-large', `\`geojson\` holds more than ${kMostGeometries} geometries`);
+
+/** The fields of an object that have a meaning; none of what is no object. */
+function readObject(value: unknown): Partial<Record<'type' | 'features' | 'geometry' | 'geometries' | 'coordinates', unknown>> {
+  return (value ?? {});
+}
+
+function listOf(value: unknown, name: string): readonly unknown[] {
+  if (Array.isArray(value)) return value;
+  throw mustBe('bad-polygon', name, 'an array', value);
 }

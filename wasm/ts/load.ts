@@ -1,7 +1,8 @@
 // load: the core's parts, compiled and started in this thread.
+import { optionsOf } from './check.js';
 import { compilePart, once, partsOf } from './compile.js';
-import { checkNames, kLoadOptions } from './options.js';
-import { startCore } from './runtime.js';
+import { kLoadOptions } from './options.js';
+import { lendCopies, startCore } from './runtime.js';
 import type { LoadOptions, Part, WasmSource } from './types.js';
 
 const loading = new Map<Part, Promise<void>>();
@@ -9,15 +10,15 @@ const loading = new Map<Part, Promise<void>>();
 /**
  * Loads the core, or the parts of it that are named; the other functions need theirs. A part is loaded
  * once: later calls wait for the same load, wherever they say it is; after a failure the next call tries
- * again.
+ * again. `checks` apply from then on, whatever has been loaded before.
  *
  * @throws SoapfilmError `load-failed`, with the reason as its `cause`; `bad-option`
  */
 export async function load(options: LoadOptions = {}): Promise<void> {
-  checkNames(options, kLoadOptions);
   const start = async (part: Part, source?: WasmSource): Promise<void> =>
     startCore(part, await compilePart(part, source));
-  await Promise.all(
-    partsOf(options).map(([part, source]) => once(loading, part, () => start(part, source))),
-  );
+  const given = optionsOf(options, kLoadOptions);
+  const parts = partsOf(given);
+  if (given.checks !== undefined) lendCopies(given.checks === true);
+  await Promise.all(parts.map(([part, source]) => once(loading, part, () => start(part, source))));
 }

@@ -1,29 +1,21 @@
-// spanLoops: options checked and turned into the core's settings, the core's arrays into a Span.
-import { SoapfilmError } from './errors.js';
-import { toLoopSet } from './loopset.js';
+// spanLoops: options turned into the core's settings, the core's arrays into a Span.
 import {
-  badOption,
-  checkLimits,
-  checkNames,
-  kCandidateList,
-  kSpanOptions,
-  kWeights,
-} from './options.js';
-import { callCore, shared, type Arrays } from './runtime.js';
-import type {
-  CandidateList,
-  LoopSet,
-  LoopsLike,
-  NoSpan,
-  Span,
-  SpanOptions,
-  SpaceUsed,
-  Weights,
-} from './types.js';
-
-// The orders of the enums Space and Objective in src/loops/span.h.
-const kSpaces = ['auto', 'all', 'delaunay', 'near', 'given'] as const;
-const kObjectives = ['sum', 'worst-dihedral'] as const;
+  kInsertedPlaceLength,
+  kObjectiveChoices,
+  kSpaceChoices,
+  packSpanSettings,
+  readInsertedPlace,
+  readSpanArrays,
+  readSpanNumbers,
+  type SpanArrays,
+} from './border.js';
+import { optionsOf } from './check.js';
+import { flattenLoops } from './flatten.js';
+import { kDefaultMemoryBytes, kSpanOptions } from './options.js';
+import { tellEnd } from './report.js';
+import { callCore, shared } from './runtime.js';
+import { spanOptionsOf } from './span_input.js';
+import type { LoopSet, LoopsLike, NoSpan, Span, SpanOptions, SpaceUsed } from './types.js';
 
 /**
  * Spans one or more closed 3D loops with a triangulated surface of least cost: of all surfaces made
@@ -31,8 +23,8 @@ const kObjectives = ['sum', 'worst-dihedral'] as const;
  * sphere with k holes (Zou, Ju, Carr 2013). Synchronous; the worker of `soapfilm/worker` offers
  * the same without blocking.
  *
- * @param loops flat arrays, or one array of points a loop; their directions matter only to
- *   `boundaryNormals`
+ * @param loops flat arrays, or one list of points a loop; their directions matter only to
+ *   `boundaryNormals`. They are read when the call begins, and left as they are
  * @returns the surface, m = n' + 2k - 4 triangles; `found: false` where the candidate space holds
  *   none, which is an ordinary outcome for Delaunay candidates of contorted loops
  * @throws SoapfilmError `not-loaded`; `no-loops`, `bad-loops`, `bad-starts`, `not-finite`,
@@ -41,13 +33,17 @@ const kObjectives = ['sum', 'worst-dihedral'] as const;
  *   `time-limit`; `crashed`. The next call works after any of them.
  */
 export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | NoSpan {
-  const input = toLoopSet(loops);
-  checkNames(options, kSpanOptions);
-  const maxBytes = checkLimits(options);
-  const { onProgress, onBest, maxSeconds, bestSoFar = false } = options;
-  checkCalls(options);
-  const list = typeof options.candidates === 'object' ? checkList(options.candidates) : undefined;
-  const start = checkStart(options.startFrom);
+  const input = flattenLoops(loops);
+  const checked = spanOptionsOf(optionsOf(options, kSpanOptions), input, false);
+  const span = computeSpan(input, checked);
+  tellEnd(span, checked.onProgress);
+  return span;
+}
+
+/** `spanLoops` of what has been checked, but for the last call of `onProgress`. */
+export function computeSpan(input: LoopSet, options: SpanOptions): Span | NoSpan {
+  const { onProgress, onBest, maxSeconds, bestSoFar, boundaryNormals, candidates, startFrom: start } = options;
+  const list = typeof candidates === 'object' ? candidates : undefined;
   const started = performance.now();
   const { found, arrays } = callCore(
     shared.loops,
@@ -56,15 +52,15 @@ export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | N
       input.positions,
       input.starts,
       input.starts.length - 1,
-      checkNormals(options.boundaryNormals, input),
+      boundaryNormals ?? null,
       list?.triangles ?? null,
       list ? list.triangles.length / 3 : 0,
       list?.weights ?? null,
-      start,
+      start ?? null,
       start ? start.length / 3 : 0,
-      settings(options, maxBytes),
+      settings(options),
     ],
-    kResultTypes,
+    readSpanArrays,
     {
       onProgress,
       maxSeconds,
@@ -80,41 +76,15 @@ export function spanLoops(loops: LoopsLike, options: SpanOptions = {}): Span | N
     const { candidates, stats } = readSpan(arrays, started);
     return { found, reason: noSpanReason(candidates), candidates, stats };
   }
-  const span = readSpan(arrays, started);
-  onProgress?.(1, span.cost, span.lowerBound);
-  return span;
+  return readSpan(arrays, started);
 }
 
-/** The arrays of a result of `sf_span_loops`. */
-const kResultTypes = [
-  Float64Array,
-  Uint32Array,
-  Uint32Array,
-  Uint32Array,
-  Uint32Array,
-  Float64Array,
-  Uint32Array,
-  Float64Array,
-] as const;
-
-function readSpan(arrays: Arrays<typeof kResultTypes>, started: number): Span {
-  const [positions, triangles, order, starts, loopVertices, numbers, places, parameters] = arrays;
-  const [
-    ,
-    space,
-    cost,
-    lowerBound,
-    optimal,
-    area,
-    perimeter,
-    dihedral,
-    worstDihedral,
-    ,
-    candidates,
-    domains,
-    minimalSets,
-    peakBytes,
-  ] = numbers;
+function readSpan(arrays: SpanArrays, started: number): Span {
+  const { positions, triangles, starts, loopVertices, order } = arrays;
+  const { insertedPlaces, insertedParameters } = arrays;
+  const numbers = readSpanNumbers(arrays.numbers);
+  const { cost, lowerBound, area, perimeter, dihedral, worstDihedral } = numbers;
+  const { candidates, domains, minimalSets, peakBytes } = numbers;
   const seconds = (performance.now() - started) / 1000;
   return {
     found: true,
@@ -122,16 +92,15 @@ function readSpan(arrays: Arrays<typeof kResultTypes>, started: number): Span {
     triangles,
     starts,
     loopVertices,
-    inserted: Array.from(parameters, (parameter, i) => ({
-      loop: places[2 * i],
-      edge: places[2 * i + 1],
+    inserted: Array.from(insertedParameters, (parameter, i) => ({
+      ...readInsertedPlace(insertedPlaces, kInsertedPlaceLength * i),
       parameter,
     })),
     cost,
     terms: { area, perimeter, dihedral, worstDihedral },
     lowerBound,
-    optimal: optimal !== 0,
-    candidates: kSpaces[space] as SpaceUsed,
+    optimal: numbers.optimal !== 0,
+    candidates: kSpaceChoices[numbers.space] as SpaceUsed,
     order,
     stats: { candidates, domains, minimalSets, seconds, peakBytes },
   };
@@ -147,88 +116,16 @@ function noSpanReason(space: SpaceUsed): string {
   return wider[space];
 }
 
-function settings(
-  { weights, objective = 'sum', candidates, bestSoFar = false }: SpanOptions,
-  maxBytes: number,
-) {
-  const space = typeof candidates === 'object' ? 'given' : (candidates ?? 'auto');
-  const spaceIndex = kSpaces.indexOf(space);
-  const objectiveIndex = kObjectives.indexOf(objective);
-  if (objectiveIndex < 0) throw badOption('objective', kObjectives);
-  if (spaceIndex < 0 || candidates === ('given' as string)) {
-    throw badOption('candidates', kSpaces.slice(0, 4), ', or { triangles }');
-  }
+function settings({ weights, objective = 'sum', candidates = 'auto', bestSoFar, maxMemoryBytes }: SpanOptions) {
   // NaN: the core sets the default from the size of the loops.
-  if (weights) checkNames(weights, kWeights, 'weights.');
   const { area = 0, perimeter = 0, dihedral = 0 } = weights ?? { area: NaN, dihedral: 1 };
-  if (weights) checkWeights({ area, perimeter, dihedral });
-  return new Float64Array([
-    area,
-    perimeter,
-    dihedral,
-    objectiveIndex,
-    spaceIndex,
-    maxBytes,
-    Number(bestSoFar),
-  ]);
-}
-
-function checkWeights(weights: Required<Weights>): void {
-  for (const [name, value] of Object.entries(weights)) {
-    if (!Number.isFinite(value) || value < 0) {
-      throw new SoapfilmError(
-        'bad-weights',
-        `The weight of \`${name}\` must be a finite number and not negative, not ${String(value)}`,
-      );
-    }
-  }
-}
-
-function checkCalls(options: SpanOptions): void {
-  const { bestSoFar } = options;
-  if (bestSoFar !== undefined && typeof bestSoFar !== 'boolean') {
-    throw new SoapfilmError('bad-option', '`bestSoFar` must be true or false');
-  }
-  for (const name of ['onProgress', 'onBest'] as const) {
-    if (options[name] !== undefined && typeof options[name] !== 'function') {
-      throw new SoapfilmError('bad-option', `\`${name}\` must be a function`);
-    }
-  }
-}
-
-function checkStart(start: Uint32Array | undefined): Uint32Array | null {
-  if (start === undefined) return null;
-  if (!(start instanceof Uint32Array) || start.length % 3 !== 0) {
-    throw new SoapfilmError(
-      'bad-option',
-      '`startFrom` must be a Uint32Array of three indices for each triangle',
-    );
-  }
-  return start;
-}
-
-function checkList(list: CandidateList | null): CandidateList {
-  const bad = (message: string) => new SoapfilmError('bad-candidates', message);
-  const { triangles, weights } = list ?? {};
-  if (list) checkNames(list, kCandidateList, 'candidates.');
-  if (!(triangles instanceof Uint32Array) || triangles.length % 3 !== 0) {
-    throw bad('`candidates.triangles` must be a Uint32Array of three indices for each triangle');
-  }
-  if (weights === undefined) return { triangles };
-  if (!(weights instanceof Float64Array) || 3 * weights.length !== triangles.length) {
-    throw bad('`candidates.weights` must be a Float64Array of one number for each triangle');
-  }
-  return { triangles, weights };
-}
-
-function checkNormals(normals: Float64Array | undefined, input: LoopSet): Float64Array | null {
-  if (normals === undefined) return null;
-  if (!(normals instanceof Float64Array) || normals.length !== input.positions.length) {
-    throw new SoapfilmError(
-      'bad-normals',
-      `\`boundaryNormals\` must be a Float64Array of ${input.positions.length} numbers, ` +
-        'three for each vertex',
-    );
-  }
-  return normals;
+  return packSpanSettings({
+    areaWeight: area,
+    perimeterWeight: perimeter,
+    dihedralWeight: dihedral,
+    objective: kObjectiveChoices.indexOf(objective),
+    space: kSpaceChoices.indexOf(typeof candidates === 'object' ? 'given' : candidates),
+    maxBytes: maxMemoryBytes ?? kDefaultMemoryBytes,
+    bestSoFar: Number(bestSoFar),
+  });
 }

@@ -1,10 +1,9 @@
 // What the statuses of the core mean: their codes, and messages in words that name the culprit.
+import { Status, type Place } from './border.js';
 import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
 
-/** Status values of `src/base/status.h` that the runtime tells apart. */
-export const kOk = 0;
-export const kNotFound = 1;
-export const kStopped = 13;
+/** Names of the statuses that are errors, and no one's wish. */
+type Failure = Exclude<keyof typeof Status, 'Ok' | 'NotFound' | 'Stopped'>;
 
 const kNone = 0xffffffff;
 
@@ -22,46 +21,46 @@ const second = (place: ErrorPlace): string =>
 const candidate = (place: ErrorPlace): string =>
   place.vertex === undefined ? 'a candidate' : `candidate ${place.vertex}`;
 
-const table: Readonly<Record<number, readonly [ErrorCode, (place: ErrorPlace) => string]>> = {
-  2: ['no-loops', () => 'there is no loop to span'],
-  3: [
+const table: Readonly<Record<Failure, readonly [ErrorCode, (place: ErrorPlace) => string]>> = {
+  NoLoops: ['no-loops', () => 'there is no loop to span'],
+  BadStarts: [
     'bad-starts',
     (place) =>
       place.loop === undefined
         ? '`starts` must increase from 0 to the number of vertices'
         : `\`starts\` must increase from 0 to the number of vertices; it does not at loop ${place.loop}`,
   ],
-  4: ['not-finite', (place) => `${first(place)} has a coordinate that is NaN, infinite or beyond 1e150`],
-  5: [
+  NotFinite: ['not-finite', (place) => `${first(place)} has a coordinate that is NaN, infinite or beyond 1e150`],
+  TooFewVertices: [
     'too-few-vertices',
     (place) => `${at(place.loop, undefined)} has fewer than the 3 vertices that a loop needs`,
   ],
-  6: ['repeated-vertex', (place) => `${first(place)} lies exactly where ${second(place)} does`],
-  7: [
+  RepeatedVertex: ['repeated-vertex', (place) => `${first(place)} lies exactly where ${second(place)} does`],
+  LoopsIntersect: [
     'loops-intersect',
     (place) =>
       `the edge from ${first(place)} meets the edge from ${second(place)}: ` +
       'loop edges may not cross, touch or overlap',
   ],
-  8: [
+  BadNormals: [
     'bad-normals',
     (place) => `the boundary normal of ${first(place)} is zero, infinite or NaN in part`,
   ],
-  9: ['bad-weights', () => 'weights must be finite and not negative, and at least one positive'],
-  10: [
+  BadWeights: ['bad-weights', () => 'weights must be finite and not negative, and at least one positive'],
+  BadCandidates: [
     'bad-candidates',
     (place) =>
       `${candidate(place)} has an index out of range, is listed twice, is collinear, ` +
       'or has a weight that is not finite',
   ],
-  11: ['too-large', () => 'the work is predicted to exceed the memory limit (`maxMemoryBytes`)'],
-  12: ['out-of-memory', () => 'the work reached the memory limit (`maxMemoryBytes`)'],
-  14: ['bad-option', () => 'an option is outside its range'],
-  15: [
+  TooLarge: ['too-large', () => 'the work is predicted to exceed the memory limit (`maxMemoryBytes`)'],
+  OutOfMemory: ['out-of-memory', () => 'the work reached the memory limit (`maxMemoryBytes`)'],
+  BadOption: ['bad-option', () => 'an option is outside its range'],
+  SelfIntersecting: [
     'self-intersecting',
     (place) => `the edge from ${first(place)} crosses or overlaps the edge from ${second(place)}`,
   ],
-  16: [
+  HoleOutside: [
     'hole-outside',
     (place) =>
       place.otherLoop === undefined
@@ -69,18 +68,18 @@ const table: Readonly<Record<number, readonly [ErrorCode, (place: ErrorPlace) =>
         : `the edge from ${first(place)}, of a hole, crosses or overlaps the edge from ` +
           `${second(place)} of the outer ring`,
   ],
-  17: [
+  HolesOverlap: [
     'holes-overlap',
     (place) =>
       `the edge from ${first(place)} crosses or overlaps the edge from ${second(place)}: ` +
       'holes may touch, but not overlap',
   ],
-  18: [
+  NestedHole: [
     'nested-hole',
     (place) =>
       `${at(place.loop, undefined)}, a hole, lies inside ${at(place.otherLoop, undefined)}, another hole`,
   ],
-  19: [
+  DegeneratePolygon: [
     'degenerate',
     (place) =>
       place.vertex === undefined
@@ -89,36 +88,35 @@ const table: Readonly<Record<number, readonly [ErrorCode, (place: ErrorPlace) =>
   ],
 };
 
+const byStatus = new Map<number, (typeof table)[Failure]>(
+  Object.entries(table).map(([name, entry]) => [Status[name as Failure], entry]),
+);
+
 /**
  * The error for a failed call.
- * @param where `[4]` loop, vertex, other loop, other vertex, or 0xFFFFFFFF where there is none
  * @param noun what loops are called
  * @param more what else is known of the place
  */
 export function statusError(
   status: number,
-  where: ArrayLike<number>,
+  { loop, vertex, otherLoop, otherVertex }: Place,
   noun = 'loop',
   more: ErrorPlace = {},
 ): SoapfilmError {
   const place: ErrorPlace = {
     ...more,
-    ...(where[0] !== kNone && { loop: where[0] }),
-    ...(where[1] !== kNone && { vertex: where[1] }),
-    ...(where[2] !== kNone && { otherLoop: where[2] }),
-    ...(where[3] !== kNone && { otherVertex: where[3] }),
+    ...(loop !== kNone && { loop }),
+    ...(vertex !== kNone && { vertex }),
+    ...(otherLoop !== kNone && { otherLoop }),
+    ...(otherVertex !== kNone && { otherVertex }),
   };
-  const entry = Object.hasOwn(table, status) ? table[status] : undefined;
+  const entry = byStatus.get(status);
   if (!entry) return new SoapfilmError('crashed', `the core ended with unknown status ${status}`);
   const text = entry[1](place).replace(/\bloop (?=\d)/g, `${noun} `);
   return new SoapfilmError(entry[0], text[0].toUpperCase() + text.slice(1), place);
 }
 
 /** The error for a polygon: its loops are rings. */
-export function ringError(
-  status: number,
-  where: ArrayLike<number>,
-  more?: ErrorPlace,
-): SoapfilmError {
+export function ringError(status: number, where: Place, more?: ErrorPlace): SoapfilmError {
   return statusError(status, where, 'ring', more);
 }

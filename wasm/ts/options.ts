@@ -1,5 +1,5 @@
 // What the options of all functions have in common.
-import { SoapfilmError } from './errors.js';
+import { mustBe, type Given, type Names } from './check.js';
 import type {
   CandidateList,
   LoadOptions,
@@ -11,14 +11,11 @@ import type {
 } from './types.js';
 
 /** What the core may use unless told otherwise; WebAssembly memory ends at 4 GiB. */
-const kDefaultMemoryBytes = 3 * 2 ** 30;
+export const kDefaultMemoryBytes = 3 * 2 ** 30;
 
 export const kParts: readonly Part[] = ['loops', 'polygons'];
 
-/** The names of all options of a kind; the compiler sees to it that none is missing. */
-type Names<T> = Readonly<Record<keyof T, true>>;
-
-export const kLoadOptions: Names<LoadOptions> = { parts: true, wasm: true };
+export const kLoadOptions: Names<LoadOptions> = { parts: true, wasm: true, checks: true };
 
 const kLimits: Names<Limits> = { maxMemoryBytes: true, maxSeconds: true };
 
@@ -57,35 +54,14 @@ export interface Limits {
 }
 
 /**
- * Checks that options are an object without other fields than the named ones: a misspelt option would
- * go unnoticed.
- * @param path of the option that they are the fields of, if they are, and a full stop
+ * The limits that every function has; those left out are left out.
  * @throws SoapfilmError `bad-option`
  */
-export function checkNames(options: unknown, names: Readonly<Record<string, true>>, path = ''): void {
-  if (typeof options !== 'object' || options === null) {
-    throw new SoapfilmError('bad-option', `\`${path.slice(0, -1) || 'options'}\` must be an object`);
+export function limitsOf({ maxMemoryBytes, maxSeconds }: Given<Limits>): Limits {
+  const given = Object.entries({ maxMemoryBytes, maxSeconds }).filter(([, value]) => value !== undefined);
+  for (const [name, value] of given) {
+    if (typeof value === 'number' && value >= 0) continue;
+    throw mustBe('bad-option', name, 'a number and not negative', value);
   }
-  const unknown = Object.keys(options).find((name) => !Object.hasOwn(names, name));
-  if (unknown === undefined) return;
-  const list = Object.keys(names).join(', ');
-  throw new SoapfilmError('bad-option', `\`${path}${unknown}\` is not an option here; there are ${list}`);
-}
-
-/**
- * Checks the limits that every function has, and returns how many bytes the core may use.
- * @throws SoapfilmError `bad-option`
- */
-export function checkLimits({ maxMemoryBytes, maxSeconds }: Limits): number {
-  for (const [name, value] of Object.entries({ maxMemoryBytes, maxSeconds })) {
-    if (value === undefined || (typeof value === 'number' && value >= 0)) continue;
-    throw new SoapfilmError('bad-option', `\`${name}\` must be a number and not negative`);
-  }
-  return maxMemoryBytes ?? kDefaultMemoryBytes;
-}
-
-/** The error for an option that is none of the choices. */
-export function badOption(name: string, choices: readonly unknown[], more = ''): SoapfilmError {
-  const list = choices.map((c) => (typeof c === 'string' ? `'${c}'` : String(c))).join(', ');
-  return new SoapfilmError('bad-option', `\`${name}\` must be one of ${list}${more}`);
+  return Object.fromEntries(given);
 }

@@ -1,41 +1,51 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 // PolygonSession: a polygon that stays in the core while it is edited.
+import {
+  kEditActionChoices,
+  kEditFactsLength,
+  readEditArrays,
+  readEditFacts,
+  readOpenedArrays,
+  readStateArrays,
+  Status,
+  type ArrayReader,
+} from './border.js';
 import { kDispose } from './dispose.js';
+import { guarded, isIndex, mustBe, optionsOf } from './check.js';
 import { SoapfilmError } from './errors.js';
+import { putPoints } from './flatten.js';
 import { ringError } from './messages.js';
-import { checkLimits, checkNames } from './options.js';
-import { toFlatPolygon } from './polygon.js';
-import { callCore, Home, type Arrays, type CoreArgument } from './runtime.js';
-import type { PolygonEdit, PolygonLike, PolygonOptions, PolygonState } from './types.js';
+import { kDefaultMemoryBytes, limitsOf } from './options.js';
+import { flattenPolygon } from './polygon_input.js';
+import type { CoreArgument } from './runtime.js';
+import { Session } from './session.js';
+import type { Point2Like, PolygonEdit, PolygonLike, PolygonOptions, PolygonState } from './types.js';
 
-/** Where sessions live: apart from other calls, which may end with an instance that has to be dropped. */
-let home = new Home('polygons');
-let open = 0;
+const kWatch = { explain: ringError };
 
-/** The order of the actions of `sf_session_edit`. */
-const kInsert = 0;
-const kInsertIsolated = 1;
-const kDelete = 2;
-const kMove = 3;
-
-/** How many numbers `sf_session_edit` tells before those of the triangles. */
-const kFacts = 7;
-
-type Types = Parameters<typeof callCore>[3];
+const kInsert = kEditActionChoices.indexOf('insert');
+const kInsertIsolated = kEditActionChoices.indexOf('insert-isolated');
+const kDelete = kEditActionChoices.indexOf('delete');
+const kMove = kEditActionChoices.indexOf('move');
 
 /**
  * A triangulated polygon in the plane whose vertices can be inserted, deleted and moved; the work is in
  * proportion to the triangles around the edit. Holds memory of the core until it is disposed of.
  *
+ * Points are `[x, y]`, typed arrays of two numbers, or objects with `x` and `y`. Numbers of no vertex, and points
+ * that are none, are `bad-option`.
  * Rings may not touch, and no two vertices have one place: codes are those of `triangulatePolygon`,
  * and `repeated-vertex`. An edit that would make the polygon invalid throws and leaves the polygon as it
  * was, if perhaps with other triangles, which the next edit's `changed` then names as well. `vertex`
  * and `otherVertex` of its error are numbers of vertices as everywhere in a session. After `crashed`, which
- * only a defect of the core can bring about, all sessions are lost, and say so when they are used.
+ * only a defect of the core can bring about, the session is lost, and so are those that share its memory:
+ * sessions do so only where more than 32 are open. The error names them all by their `id`, and so does
+ * that of their next use.
+ *
+ * A session that is not referred to any more is freed in time; `dispose` does so at once.
  */
 export class PolygonSession {
-  readonly #home: Home;
-  #number: number | undefined;
+  readonly #session: Session;
   #triangles: Uint32Array;
   #count: number;
   /** Triangles that edits have changed which were refused: the next one's to tell. */
@@ -46,13 +56,14 @@ export class PolygonSession {
    * are those of `PolygonState.next`.
    */
   constructor(polygon: PolygonLike, options: Pick<PolygonOptions, 'maxMemoryBytes'> = {}) {
-    checkNames(options, { maxMemoryBytes: true });
-    const maxBytes = checkLimits(options);
-    const { positions, ringStarts, points, dim } = toFlatPolygon(polygon);
-    if (dim === 3) throw new SoapfilmError('bad-polygon', 'Sessions take 2D polygons');
-    if (home.lost) [home, open] = [new Home('polygons'), 0];
-    this.#home = home;
-    const [[number], triangles] = this.#call(
+    const limits = limitsOf(optionsOf(options, { maxMemoryBytes: true }));
+    const { positions, ringStarts, points, dim } = flattenPolygon(polygon);
+    if (dim === 3) {
+      throw new SoapfilmError('bad-polygon', '`polygon` must have two dimensions: sessions are in the plane');
+    }
+    this.#session = new Session('polygons', 'sf_session_close');
+    const { triangles } = this.#session.open(
+      this,
       'sf_session_open',
       [
         positions,
@@ -60,59 +71,56 @@ export class PolygonSession {
         ringStarts.length - 1,
         points ?? null,
         points ? points.length / 2 : 0,
-        maxBytes,
+        limits.maxMemoryBytes ?? kDefaultMemoryBytes,
       ],
-      [Uint32Array, Uint32Array],
+      readOpenedArrays,
+      ({ session }) => session[0],
+      kWatch,
     );
-    this.#number = number;
     this.#triangles = triangles;
     this.#count = triangles.length;
-    open++;
+  }
+
+  /** By which errors name the session: 1 for the first in this thread. */
+  get id(): number {
+    return this.#session.id;
   }
 
   /** `[3m]` the triangles, counter-clockwise. */
   get triangles(): Uint32Array {
+    this.#alive();
     return this.#triangles.slice(0, this.#count);
   }
 
   /** Inserts a vertex into a ring, between `before` and the next one. */
-  insert(before: number, [x, y]: readonly [number, number]): PolygonEdit {
-    return this.#edit(kInsert, before, x, y);
+  insert(before: number, point: Point2Like): PolygonEdit {
+    return this.#edit(kInsert, 'before', before, point);
   }
 
   /** Inserts an isolated vertex inside the polygon. */
-  insertPoint([x, y]: readonly [number, number]): PolygonEdit {
-    return this.#edit(kInsertIsolated, 0, x, y);
+  insertPoint(point: Point2Like): PolygonEdit {
+    return this.#edit(kInsertIsolated, '', 0, point);
   }
 
   /** Deletes a vertex; its number may be given to one inserted later. A ring keeps 3 vertices. */
   delete(vertex: number): PolygonEdit {
-    return this.#edit(kDelete, vertex, 0, 0);
+    return this.#edit(kDelete, 'vertex', vertex, kOrigin);
   }
 
-  move(vertex: number, [x, y]: readonly [number, number]): PolygonEdit {
-    return this.#edit(kMove, vertex, x, y);
+  /** Moves a vertex of a ring, or an isolated one. */
+  move(vertex: number, point: Point2Like): PolygonEdit {
+    return this.#edit(kMove, 'vertex', vertex, point);
   }
 
   /** All that the session holds besides the triangles, in time proportional to the polygon's size. */
   read(): PolygonState {
-    const [positions, next, strips, stripStarts, certified] = this.#call(
-      'sf_session_read',
-      [this.#alive()],
-      [Float64Array, Uint32Array, Uint32Array, Uint32Array, Uint32Array],
-    );
-    return { positions, next, strips, stripStarts, certified: certified[0] === 1 };
+    const { certified, ...state } = this.#call('sf_session_read', [this.#alive()], readStateArrays);
+    return { ...state, certified: certified[0] === 1 };
   }
 
   /** Frees the session's memory. Any other use of it afterwards throws `disposed`. */
   dispose(): void {
-    if (this.#number === undefined) return;
-    const number = this.#number;
-    this.#number = undefined;
-    if (this.#home.lost) return;
-    // Memory of instances never shrinks: the last session takes its instance along.
-    if (--open === 0) home = new Home('polygons');
-    else this.#call('sf_session_close', [number], []);
+    this.#session.dispose();
   }
 
   [kDispose](): void {
@@ -120,29 +128,29 @@ export class PolygonSession {
   }
 
   #alive(): number {
-    if (this.#number !== undefined) return this.#number;
-    throw new SoapfilmError('disposed', 'The session is disposed of');
+    return this.#session.number;
   }
 
-  #call<const T extends Types>(name: string, args: readonly CoreArgument[], types: T): Arrays<T> {
-    return callCore(this.#home, name, args, types, { explain: ringError }).arrays;
+  #call<T>(name: string, args: readonly CoreArgument[], read: (array: ArrayReader) => T): T {
+    return this.#session.call(name, args, read, kWatch);
   }
 
-  #edit(action: number, vertex: number, x: number, y: number): PolygonEdit {
-    if (vertex >>> 0 !== vertex) {
-      throw new SoapfilmError('bad-option', `There is no vertex ${String(vertex)}`);
-    }
-    const [told] = this.#call(
+  /** @param role what the vertex is called */
+  #edit(action: number, role: string, vertex: number, point: Point2Like): PolygonEdit {
+    this.#alive();
+    if (!isIndex(vertex)) throw mustBe('bad-option', role, 'the number of a vertex', vertex);
+    const [x, y] = coordinatesOf(point);
+    const { edit } = this.#call(
       'sf_session_edit',
       [this.#alive(), action, vertex, x, y],
-      [Uint32Array],
+      readEditArrays,
     );
-    const triangleCount = told[1];
-    const status = told[2];
-    const count = (told.length - kFacts) / 4;
+    const facts = readEditFacts(edit);
+    const { triangleCount, status } = facts;
+    const count = (edit.length - kEditFactsLength) / 4;
     // Views of one buffer, which is theirs alone: copies would take a tenth of the time of an edit.
-    let changed = told.subarray(kFacts, kFacts + count);
-    let triangles = told.subarray(kFacts + count);
+    let changed = edit.subarray(kEditFactsLength, kEditFactsLength + count);
+    let triangles = edit.subarray(kEditFactsLength + count);
     this.#count = 3 * triangleCount;
     if (this.#triangles.length < this.#count) {
       const larger = new Uint32Array(2 * this.#count);
@@ -152,9 +160,11 @@ export class PolygonSession {
     for (let i = 0; i < count; i++) {
       const t = changed[i];
       for (let k = 0; k < 3; k++) this.#triangles[3 * t + k] = triangles[3 * i + k];
-      if (status !== 0) this.#untold.add(t);
+      if (status !== Status.Ok) this.#untold.add(t);
     }
-    if (status !== 0) throw ringError(status, told.subarray(3, kFacts));
+    if (status !== Status.Ok) {
+      throw refusal(ringError(status, { ...facts, vertex: facts.atVertex }), role, vertex);
+    }
     if (this.#untold.size > 0) {
       const names = new Set([...this.#untold, ...changed]);
       changed = Uint32Array.from(names)
@@ -165,6 +175,28 @@ export class PolygonSession {
       for (const t of changed) for (let k = 0; k < 3; k++) triangles[at++] = this.#triangles[3 * t + k];
       this.#untold.clear();
     }
-    return { vertex: told[0], triangleCount, changed, triangles };
+    return { vertex: facts.vertex, triangleCount, changed, triangles };
   }
+}
+
+const kOrigin = [0, 0];
+
+/** The two coordinates of a point. */
+function coordinatesOf(point: unknown): Float64Array {
+  const xy = new Float64Array(2);
+  const put = guarded('bad-option', 'point', () => putPoints([point], 1, 2, true, xy, 0));
+  if (put === 1) return xy;
+  throw mustBe('bad-option', 'point', '[x, y] or { x, y } of numbers', point);
+}
+
+/** The error for an edit that was refused, in words of its arguments where they are at fault. */
+function refusal(error: SoapfilmError, role: string, vertex: number): SoapfilmError {
+  const { code, loop, vertex: culprit } = error;
+  if (code === 'bad-option') {
+    const what = role === 'before' ? 'a vertex of a ring' : 'a vertex';
+    return new SoapfilmError(code, `\`${role}\` must be the number of ${what}, and ${vertex} is none`);
+  }
+  if (code !== 'not-finite') return error;
+  const place = { ...(loop !== undefined && { loop }), ...(culprit !== undefined && { vertex: culprit }) };
+  return new SoapfilmError(code, '`point` has a coordinate that is NaN, infinite or beyond 1e150', place);
 }

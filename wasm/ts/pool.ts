@@ -2,6 +2,7 @@
 import { SoapfilmError } from './errors.js';
 import type { Modules } from './compile.js';
 import { buffersOf, copyOf, unpackError, type Calls, type Reply, type Request } from './protocol.js';
+import { report } from './report.js';
 import { startThread, type Thread } from './thread.js';
 import type { ProgressListener } from './types.js';
 
@@ -20,6 +21,8 @@ interface Job {
   readonly watch: CallWatch;
   /** The last result on the way. */
   best?: unknown;
+  /** What a listener has thrown. */
+  thrown?: { readonly reason: unknown };
   readonly resolve: (value: unknown) => void;
   readonly reject: (reason: unknown) => void;
 }
@@ -46,9 +49,10 @@ export class Pool {
   }
 
   /**
-   * Runs one function in a thread.
+   * Runs one function in a thread. The buffers of its input are handed over: they must be the pool's own.
    * @throws SoapfilmError of the function, `cancelled`, `disposed`, `crashed`, or `load-failed` when
-   *   no thread can be started; what the listeners throw, which also ends the work
+   *   no thread can be started; what the listeners throw, which also ends the work, or is reported if
+   *   that is done by then
    */
   call<N extends keyof Calls>(
     name: N,
@@ -71,7 +75,7 @@ export class Pool {
         request: {
           kind: 'call',
           name,
-          input: copyOf(input),
+          input,
           progress: onProgress !== undefined,
           results: keepsBest,
         },
@@ -118,9 +122,7 @@ export class Pool {
     } catch (cause) {
       this.#release(member);
       job.reject(
-        new SoapfilmError('bad-option', 'The input holds what cannot be sent to a worker', undefined, {
-          cause,
-        }),
+        new SoapfilmError('out-of-memory', 'The input cannot be handed to a worker', undefined, { cause }),
       );
     }
   }
@@ -227,29 +229,35 @@ export class Pool {
     });
   }
 
+  /** Tells a listener. What it throws ends the call, unless its result is on its way here already. */
+  #tell(job: Job, listener: () => void): void {
+    if (job.thrown) return;
+    try {
+      listener();
+    } catch (reason) {
+      job.thrown = { reason };
+      setTimeout(() => {
+        this.#drop(job, reason);
+      });
+    }
+  }
+
   #hear(member: Member, job: Job, reply: Reply): void {
     switch (reply.kind) {
       case 'progress':
-        try {
-          job.watch.onProgress?.(...reply.values);
-        } catch (error) {
-          this.#drop(job, error);
-        }
+        this.#tell(job, () => job.watch.onProgress?.(...reply.values));
         break;
       case 'best':
         job.best = reply.value;
-        try {
-          job.watch.onBest?.(copyOf(reply.value));
-        } catch (error) {
-          this.#drop(job, error);
-        }
+        this.#tell(job, () => job.watch.onBest?.(copyOf(reply.value)));
         break;
       case 'done':
         job.resolve(reply.value);
+        if (job.thrown) report(job.thrown.reason);
         this.#release(member);
         break;
       case 'error':
-        job.reject(unpackError(reply.error));
+        job.reject(job.thrown ? job.thrown.reason : unpackError(reply.error));
         this.#release(member);
         break;
     }

@@ -1,16 +1,17 @@
 // What the pool and its threads say to each other.
 import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
-import type { triangulateGeoJSON } from './geojson.js';
 import type { Modules } from './compile.js';
-import type { spanLoops } from './loops.js';
+import type { computeSpan } from './loops.js';
 import type { triangulatePolygon, triangulatePolygons } from './polygon.js';
 
-/** The functions that a thread can be asked for; each takes an input and options. */
+/**
+ * The functions that a thread can be asked for. Each takes an input and options, checked and made flat on
+ * the caller's side.
+ */
 export interface Calls {
-  readonly spanLoops: typeof spanLoops;
+  readonly spanLoops: typeof computeSpan;
   readonly triangulatePolygon: typeof triangulatePolygon;
   readonly triangulatePolygons: typeof triangulatePolygons;
-  readonly triangulateGeoJSON: typeof triangulateGeoJSON;
 }
 
 /** To a thread: first of all the core's parts, then one call at a time. */

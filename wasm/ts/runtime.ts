@@ -1,35 +1,28 @@
 // Instances of the core's parts, which are modules, and the one way to call them. Only this file knows
 // pointers and memory.
+import { kPlaceLength, readPlace, Status, type ArrayReader, type Place } from './border.js';
 import { SoapfilmError } from './errors.js';
-import { kNotFound, kOk, kStopped, statusError } from './messages.js';
+import { statusError } from './messages.js';
+import { report } from './report.js';
 import type { Part, ProgressListener } from './types.js';
 
 /** An argument of an export: a number as it is; an array, copied in; null, no array. */
 export type CoreArgument = number | Float64Array | Uint32Array | Int32Array | Uint8Array | null;
 
-type ArrayType =
-  | Float64ArrayConstructor
-  | Uint32ArrayConstructor
-  | Int32ArrayConstructor
-  | Uint8ArrayConstructor;
-
-/** The arrays that a call hands back, for the types asked for. */
-export type Arrays<T extends readonly ArrayType[]> = { [I in keyof T]: InstanceType<T[I]> };
-
 /** What may end a call early, and who is told how it goes. */
-export interface Watch<T extends readonly ArrayType[]> {
+export interface Watch<T> {
   /** Called every 30 ms or so. What it throws ends the work and is thrown on by `callCore`. */
   readonly onProgress?: ProgressListener | undefined;
   /** Wall-clock seconds after which the call ends with `time-limit`. */
   readonly maxSeconds?: number | undefined;
   /** Called with each result that the work has on its way; what it throws is thrown on likewise. */
-  readonly onResult?: ((arrays: Arrays<T>) => void) | undefined;
+  readonly onResult?: ((arrays: T) => void) | undefined;
   /** Whether the time limit asks the core to end, and then takes what that hands back. */
   readonly keepsResult?: boolean | undefined;
   /** Whether the arrays handed back are views of the core's memory, good until its next call. */
   readonly borrows?: boolean | undefined;
   /** The error for a status; default `statusError`. */
-  readonly explain?: ((status: number, where: Uint32Array) => SoapfilmError) | undefined;
+  readonly explain?: ((status: number, where: Place) => SoapfilmError) | undefined;
 }
 
 /**
@@ -39,7 +32,10 @@ export interface Watch<T extends readonly ArrayType[]> {
 export class Home {
   /** @internal */
   core: Core | undefined;
+  /** Whether it has trapped, and is none of `shared`. */
   lost = false;
+  /** @internal The buffers of what was lent out by copies. */
+  copies: ArrayBuffer[] = [];
   /** @internal */
   idle?: ReturnType<typeof setTimeout>;
   readonly part: Part;
@@ -64,6 +60,8 @@ const kKeepBytes = 256 * 2 ** 20;
 const kIdleMs = 1000;
 /** Dying instances that cannot grow by this many 64 KiB pages have run out of memory. */
 const kProbePages = 1024;
+/** Of the place and the result's handle, which each call's block begins with, and what pads them to 8. */
+const kHeadBytes = 4 * kPlaceLength + 8;
 
 type Export = (...args: readonly number[]) => number;
 
@@ -71,24 +69,48 @@ interface Core {
   readonly memory: WebAssembly.Memory;
   /** The export of that name; throws `load-failed` where the core has none. */
   readonly find: (name: string) => Export;
+  readonly alloc: Export;
+  readonly free: Export;
+  readonly resultData: Export;
+  readonly resultLength: Export;
+  readonly resultFree: Export;
+  /** How many calls have been entered and not left: once a call has trapped, never 0 again. */
+  entered: number;
   /** A result whose arrays are lent out, freed by the next call. */
-  lent?: number | undefined;
+  lent: number;
 }
 
 /** The call under way. */
 interface Run {
-  readonly watch: Pick<Watch<[]>, 'onProgress' | 'maxSeconds' | 'keepsResult' | 'borrows' | 'explain'>;
+  readonly watch: Pick<
+    Watch<unknown>,
+    'onProgress' | 'maxSeconds' | 'keepsResult' | 'borrows' | 'explain'
+  >;
   /** Hands a result on, by its handle. */
   readonly hear: (handle: number) => void;
   readonly started: number;
   told: number;
   fraction: number;
-  /** Why the work is to end; `gently`: what it has until then is still wanted. */
-  stop?: { readonly reason: unknown; readonly gently: boolean };
+  /** Why the work is to end. */
+  stop?: Stop;
+}
+
+interface Stop {
+  readonly reason: unknown;
+  /** Whether what the core has until then is still wanted. */
+  readonly gently: boolean;
+  /** Whether the core has been told to end; if not, it was done before it could be. */
+  heard: boolean;
 }
 
 const modules: Partial<Record<Part, WebAssembly.Module>> = {};
 let run: Run | undefined;
+let lendsCopies = false;
+
+/** Whether arrays are lent as copies from now on, which the next call of the same instance detaches. */
+export function lendCopies(yes: boolean): void {
+  lendsCopies = yes;
+}
 
 /**
  * Makes `compiled` the module of a part that is called from now on, and starts an instance of it.
@@ -120,29 +142,65 @@ function open(part: Part, { exports }: WebAssembly.Instance): Core {
   const { memory } = exports;
   const lacks = (what: string): SoapfilmError =>
     new SoapfilmError('load-failed', `The module for '${part}' has no ${what}`);
+  const known = new Map<string, Export>();
   const find = (name: string): Export => {
-    const found = exports[name];
-    if (typeof found === 'function') return found as Export;
-    throw lacks(`function \`${name}\``);
+    let found = known.get(name);
+    if (found) return found;
+    const called = exports[name];
+    if (typeof called !== 'function') throw lacks(`function \`${name}\``);
+    found = (...args) => {
+      core.entered++;
+      const value = (called as Export)(...args);
+      core.entered--;
+      return value;
+    };
+    known.set(name, found);
+    return found;
   };
   if (!(memory instanceof WebAssembly.Memory)) throw lacks('memory');
-  find('sf_alloc');
+  const core: Core = {
+    memory,
+    find,
+    alloc: find('sf_alloc'),
+    free: find('sf_free'),
+    resultData: find('sf_result_data'),
+    resultLength: find('sf_result_length'),
+    resultFree: find('sf_result_free'),
+    entered: 0,
+    lent: 0,
+  };
   find('_initialize')();
-  return { memory, find };
+  return core;
+}
+
+/**
+ * Makes the instance of a home, if it has none.
+ * @throws SoapfilmError `not-loaded`; what the engine throws when it has no room for one
+ */
+export function start(home: Home): void {
+  const module = modules[home.part];
+  if (!module) throw notLoaded(home.part);
+  home.core ??= open(home.part, new WebAssembly.Instance(module, imports(module)));
 }
 
 /** The import that the core calls about every millisecond; never throws into the core. */
 function onHostProgress(fraction: number, bestCost: number, lowerBound: number): 0 | 1 {
-  if (!run || run.stop) return 0;
+  if (!run) return 0;
+  if (!run.stop) watchWork(run, fraction, bestCost, lowerBound);
+  if (!run.stop) return 1;
+  run.stop.heard = true;
+  return 0;
+}
+
+/** Looks at the time and tells the listener; sets `stop` where the work is to end. */
+function watchWork(run: Run, fraction: number, bestCost: number, lowerBound: number): void {
   const { watch, started } = run;
   const now = performance.now();
   if (watch.maxSeconds !== undefined && now - started >= watch.maxSeconds * 1000) {
     const text = `The work was not done within ${watch.maxSeconds} s (\`maxSeconds\`)`;
-    run.stop = {
-      reason: new SoapfilmError('time-limit', text),
-      gently: watch.keepsResult === true,
-    };
-    return 0;
+    const reason = new SoapfilmError('time-limit', text);
+    run.stop = { reason, gently: watch.keepsResult === true, heard: false };
+    return;
   }
   try {
     run.fraction = Math.min(1, Math.max(run.fraction, fraction));
@@ -151,10 +209,8 @@ function onHostProgress(fraction: number, bestCost: number, lowerBound: number):
       // Taken afterwards, so that a slow listener cannot use up all the time.
       run.told = performance.now();
     }
-    return 1;
   } catch (reason) {
-    run.stop = { reason, gently: false };
-    return 0;
+    run.stop = { reason, gently: false, heard: false };
   }
 }
 
@@ -164,56 +220,62 @@ function onHostResult(handle: number): void {
   try {
     run.hear(handle);
   } catch (reason) {
-    run.stop = { reason, gently: false };
+    run.stop = { reason, gently: false, heard: false };
   }
 }
 
 /**
- * Calls an export `name(...args, where, result)` of a part and hands back its result arrays.
+ * Calls an export `name(...args, where, result)` of a part and hands back its result arrays. Whatever
+ * the outcome, nothing of it stays in the core but what it is for, and what is lent.
  *
  * @param home the instance to call: `shared[part]`, unless the call leaves something for later ones
- * @param types type of each result array, in the order of `include/soapfilm.h`
- * @returns copies of the arrays, unless borrowed; `found` is false for status 1, "no triangulation"
+ * @param read names the arrays: of `border.ts`
+ * @returns copies of the arrays, unless borrowed; `found` is false for status 1, "no triangulation".
+ *   A listener that throws when the core cannot be told any more, since it is done, changes nothing of
+ *   that: what it has thrown is reported.
  * @throws SoapfilmError `not-loaded`; what the core's status says; `time-limit`; `out-of-memory`
- *   and `crashed`, after which the next call has a new instance; what `onProgress` throws
+ *   and `crashed`, after which the next call has a new instance; what the listeners throw
  */
-export function callCore<const T extends readonly ArrayType[]>(
+export function callCore<T>(
   home: Home,
   name: string,
   args: readonly CoreArgument[],
-  types: T,
+  read: (array: ArrayReader) => T,
   watch: Watch<T> = {},
-): { readonly found: boolean; readonly arrays: Arrays<T> } {
+): { readonly found: boolean; readonly arrays: T } {
   if (run) {
-    throw new SoapfilmError('bad-option', 'No calls from within `onProgress`');
+    throw new SoapfilmError('bad-option', 'No calls from within `onProgress` or `onBest`');
   }
-  const module = modules[home.part];
-  if (!module) throw notLoaded(home.part);
-  if (home.lost) throw new SoapfilmError('crashed', 'The session was lost in a crash');
+  if (home.lost) throw new SoapfilmError('crashed', 'What was called for was lost in a crash');
   const now = performance.now();
   const hear = (handle: number): void => {
-    if (home.core) watch.onResult?.(readArrays(home.core, handle, types));
+    if (home.core) watch.onResult?.(readArrays(home.core, handle, read));
   };
   const thisRun: Run = { watch, hear, started: now, told: now, fraction: 0 };
   run = thisRun;
   try {
-    const core = (home.core ??= open(
-      home.part,
-      new WebAssembly.Instance(module, imports(module)),
-    ));
-    const { lent } = core;
-    core.lent = undefined;
-    if (lent !== undefined) core.find('sf_result_free')(lent);
-    return callIn(core, name, args, types, thisRun);
+    start(home);
+    const core = home.core as Core;
+    takeBack(home, core);
+    return callIn(home, core, name, args, read, thisRun);
   } catch (error) {
-    if (error instanceof SoapfilmError || (thisRun.stop && error === thisRun.stop.reason)) {
-      throw error;
-    }
+    // Whatever was thrown, nothing is left of an instance that has not come back from a call.
+    if (home.core?.entered === 0 || error instanceof SoapfilmError) throw error;
     throw trapped(error, home);
   } finally {
     run = undefined;
     giveUpWhenIdle(shared[home.part]);
   }
+}
+
+/** Frees what the last call has lent out. */
+function takeBack(home: Home, core: Core): void {
+  const { lent } = core;
+  core.lent = 0;
+  if (lent !== 0) core.resultFree(lent);
+  if (home.copies.length === 0) return;
+  for (const buffer of home.copies) structuredClone(buffer, { transfer: [buffer] });
+  home.copies = [];
 }
 
 /** Lets a large shared instance go after a while without calls. Node does not wait for that. */
@@ -235,80 +297,117 @@ function notLoaded(part: Part): SoapfilmError {
 }
 
 /** `callCore` in one instance: arguments in, call, results out, everything freed. */
-function callIn<const T extends readonly ArrayType[]>(
-  called: Core,
+function callIn<T>(
+  home: Home,
+  core: Core,
   name: string,
   args: readonly CoreArgument[],
-  types: T,
+  read: (array: ArrayReader) => T,
   thisRun: Run,
-): { found: boolean; arrays: Arrays<T> } {
-  const { memory, find } = called;
-  const entry = find(name);
-  // One block: `where` [4], `result` and 4 bytes of padding, then the arrays.
-  let size = 24;
+): { found: boolean; arrays: T } {
+  const { memory } = core;
+  const entry = core.find(name);
+  const { borrows = false, explain = statusError } = thisRun.watch;
+  // One block: the place, the result's handle, padding, then the arrays. Exact: these are doubles.
+  let size = kHeadBytes;
   for (const arg of args) {
     if (arg !== null && typeof arg !== 'number') size += padded(arg.byteLength);
   }
-  const block = size < 2 ** 32 ? find('sf_alloc')(size) >>> 0 : 0;
+  const block = size < 2 ** 32 ? core.alloc(size) >>> 0 : 0;
   if (block === 0) throw new SoapfilmError('out-of-memory', 'The input does not fit into memory');
-  const head = (): Uint32Array => new Uint32Array(memory.buffer, block, 6);
-  let told = head().fill(-1, 0, 4);
-  told[4] = 0;
-  let next = block + 24;
-  const values = args.map((arg) => {
+  let handle = 0;
+  let status: number;
+  let arrays: T | undefined;
+  let place: Place | undefined;
+  try {
+    const head = (): Uint32Array => new Uint32Array(memory.buffer, block, kPlaceLength + 1);
+    let told = head().fill(-1);
+    told[kPlaceLength] = 0;
+    const values = copyIn(memory, block + kHeadBytes, args);
+    status = entry(...values, block, block + 4 * kPlaceLength);
+    if (told.length === 0) told = head(); // the memory has grown
+    handle = told[kPlaceLength];
+    if (status === Status.Ok || status === Status.NotFound) {
+      arrays = readArrays(core, handle, read, borrows ? home : undefined);
+      if (borrows && !lendsCopies) [core.lent, handle] = [handle, 0];
+    } else {
+      place = readPlace(told);
+    }
+  } finally {
+    if (core.entered === 0) {
+      if (handle !== 0) core.resultFree(handle);
+      core.free(block);
+    }
+  }
+  // A call that the core made of the host, and that called the core, may have trapped in that.
+  if (core.entered !== 0) throw trapped(thisRun.stop?.reason, home);
+  const { stop } = thisRun;
+  if (place) {
+    if (stop) throw stop.reason;
+    throw status === Status.Stopped
+      ? new SoapfilmError('cancelled', 'The work was stopped')
+      : explain(status, place);
+  }
+  if (stop?.heard && !stop.gently) throw stop.reason;
+  if (stop && !stop.heard) report(stop.reason);
+  return { found: status === Status.Ok, arrays: arrays as T };
+}
+
+/**
+ * Copies arrays to where `next` points, and returns the arguments as the core takes them.
+ * @throws SoapfilmError `bad-option` for an array whose memory is gone
+ */
+function copyIn(memory: WebAssembly.Memory, next: number, args: readonly CoreArgument[]): number[] {
+  return args.map((arg) => {
     if (arg === null) return 0;
     if (typeof arg === 'number') return arg;
     const address = next;
-    new Uint8Array(memory.buffer, address, arg.byteLength).set(
-      new Uint8Array(arg.buffer, arg.byteOffset, arg.byteLength),
-    );
+    try {
+      new Uint8Array(memory.buffer, address, arg.byteLength).set(
+        new Uint8Array(arg.buffer, arg.byteOffset, arg.byteLength),
+      );
+    } catch (cause) {
+      throw new SoapfilmError('bad-option', 'An array cannot be read', undefined, { cause });
+    }
     next += padded(arg.byteLength);
     return address;
   });
-  const status = entry(...values, block, block + 16);
-  if (told.length === 0) told = head(); // the memory has grown
-  const handle = told[4];
-  let arrays: Arrays<T> | undefined;
-  const { borrows = false, explain = statusError } = thisRun.watch;
-  try {
-    if (status === kOk || status === kNotFound) {
-      arrays = readArrays(called, handle, types, borrows);
-    }
-  } catch (error) {
-    if (error instanceof WebAssembly.RuntimeError || error instanceof SoapfilmError) throw error;
-    throw new SoapfilmError('out-of-memory', 'The result does not fit into memory', undefined, {
-      cause: error,
-    });
-  } finally {
-    if (arrays && borrows) called.lent = handle;
-    else if (handle !== 0) find('sf_result_free')(handle);
-  }
-  if (!arrays) told = head().slice(0, 4);
-  find('sf_free')(block);
-  if (thisRun.stop && !(thisRun.stop.gently && arrays)) throw thisRun.stop.reason;
-  if (!arrays) {
-    throw status === kStopped
-      ? new SoapfilmError('cancelled', 'The work was stopped')
-      : explain(status, told);
-  }
-  return { found: status === kOk, arrays };
 }
 
-/** The arrays of a result: copies, or `borrowed` views. */
-function readArrays<const T extends readonly ArrayType[]>(
-  { memory, find }: Core,
+/**
+ * The arrays of a result: copies, or lent by `lender`.
+ * @throws SoapfilmError `out-of-memory` where there is no room for copies
+ */
+function readArrays<T>(
+  core: Core,
   handle: number,
-  types: T,
-  borrowed = false,
-): Arrays<T> {
-  const [data, size] = [find('sf_result_data'), find('sf_result_length')];
-  return types.map((type, i) => {
-    const length = size(handle, i) >>> 0;
+  read: (array: ArrayReader) => T,
+  lender?: Home,
+): T {
+  const { memory, resultData, resultLength } = core;
+  const array = (
+    index: number,
+    type: Float64ArrayConstructor | Uint32ArrayConstructor,
+  ): Float64Array | Uint32Array => {
+    const length = resultLength(handle, index) >>> 0;
     if (length === 0) return new type(0);
-    const address = data(handle, i) >>> 0;
-    const view = new type(memory.buffer, address, length);
-    return borrowed ? view : view.slice();
-  }) as unknown as Arrays<T>;
+    const view = new type(memory.buffer, resultData(handle, index) >>> 0, length);
+    if (lender && !lendsCopies) return view;
+    const copy = copyOf(view);
+    lender?.copies.push(copy.buffer);
+    return copy;
+  };
+  return read(array as ArrayReader);
+}
+
+function copyOf<V extends Float64Array | Uint32Array>(view: V): V & { readonly buffer: ArrayBuffer } {
+  try {
+    return view.slice() as V & { readonly buffer: ArrayBuffer };
+  } catch (cause) {
+    throw new SoapfilmError('out-of-memory', 'The result does not fit into memory', undefined, {
+      cause,
+    });
+  }
 }
 
 const padded = (bytes: number): number => Math.ceil(bytes / 8) * 8;

@@ -1,6 +1,5 @@
 // A thread's side of the pool: runs the calls that it is sent, one after the other.
-import { triangulateGeoJSON } from './geojson.js';
-import { spanLoops } from './loops.js';
+import { computeSpan } from './loops.js';
 import { triangulatePolygon, triangulatePolygons } from './polygon.js';
 import { buffersOf, packError, packErrors, type Calls, type Reply, type Request } from './protocol.js';
 import { startCore } from './runtime.js';
@@ -12,7 +11,8 @@ export interface Port {
   postMessage(message: unknown, transfer: ArrayBuffer[]): void;
 }
 
-const calls: Calls = { spanLoops, triangulatePolygon, triangulatePolygons, triangulateGeoJSON };
+/** The end of a span is for the pool to tell of, once it has it. */
+const calls: Calls = { spanLoops: computeSpan, triangulatePolygon, triangulatePolygons };
 
 /** Answers the requests that come through `port`, as long as the thread lives. */
 export function serve(port: Port): void {

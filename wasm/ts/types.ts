@@ -11,8 +11,28 @@ export interface LoopSet {
 /** A point as a triple. */
 export type Point = readonly [x: number, y: number, z: number];
 
-/** Loops in either form: flat arrays, or one array of points a loop. */
-export type LoopsLike = LoopSet | readonly (readonly Point[])[];
+/** Coordinates as numbers in an array of any kind; how many there must be depends on the use. */
+export type Coordinates = readonly number[] | Float32Array | Float64Array;
+
+/** A point in space: three coordinates, or an object that has them, such as three's `Vector3`. */
+export type PointLike = Coordinates | { readonly x: number; readonly y: number; readonly z: number };
+
+/** A point of the plane, likewise. */
+export type Point2Like = Coordinates | { readonly x: number; readonly y: number; readonly z?: undefined };
+
+/** A closed loop: points, or `[3m]` all their coordinates in one typed array. */
+export type LoopLike = readonly PointLike[] | Float32Array | Float64Array;
+
+/** Loops in flat arrays as they may be given. */
+export interface LoopSetLike {
+  /** `[3n]` xyz, one length unit. */
+  readonly positions: Float32Array | Float64Array;
+  /** `[k + 1]`, first 0, not falling, last n. Default: all vertices are one loop. */
+  readonly starts?: Uint32Array | readonly number[];
+}
+
+/** Loops in any form: flat arrays, or one list of points a loop. They are read, and never changed or taken. */
+export type LoopsLike = LoopSetLike | readonly LoopLike[];
 
 /** Factors of the cost. At least one is positive; those left out are 0. */
 export interface Weights {
@@ -36,7 +56,10 @@ export interface CandidateList {
 }
 
 /**
- * Called while a span is computed, every 30 ms or so, and once when a surface has been found.
+ * Called while a span is computed, every 30 ms or so, and once when a surface has been found. What it
+ * throws ends the work, and the call throws it on. Once the work is done, as in that last call, it cannot
+ * be ended any more: the result is returned all the same, and what was thrown is reported as an error that
+ * nobody catches (`reportError`, or the console where there is no such function, as in Node).
  * @param fraction share of the work done, 0 to 1, never falling
  * @param bestCost cost of the best surface so far, `Infinity` while there is none
  * @param lowerBound proven lower bound on the optimal cost, 0 at first
@@ -86,7 +109,10 @@ export interface SpanOptions {
    * the limit comes only if there is none yet. Default `false`.
    */
   readonly bestSoFar?: boolean;
-  /** With `bestSoFar`: called with every surface that is better than the one before. */
+  /**
+   * With `bestSoFar`: called with every surface that is better than the one before. What it throws is
+   * dealt with as for `ProgressListener`.
+   */
   readonly onBest?: (span: Span) => void;
   /**
    * `[3m]` triangles of an earlier answer to the same loops, edited or not: the search for surfaces
@@ -168,13 +194,13 @@ export interface NoSpan {
  */
 export interface PolygonSet {
   /** `[dim · n]` xy, or xyz of points in a plane of any tilt. */
-  readonly positions: Float64Array;
-  /** `[r + 1]`, first 0, increasing, last n. */
-  readonly starts: Uint32Array;
+  readonly positions: Float32Array | Float64Array;
+  /** `[r + 1]`, first 0, increasing, last n. Default: all vertices are one ring. */
+  readonly starts?: Uint32Array | readonly number[];
   /** Default 2. */
   readonly dim?: 2 | 3;
   /** `[dim · q]` isolated vertices inside the polygon, numbered from n on. */
-  readonly points?: Float64Array;
+  readonly points?: Float32Array | Float64Array;
 }
 
 /** A polygon as earcut takes it. */
@@ -187,23 +213,29 @@ export interface EarcutPolygon {
   readonly dim?: 2 | 3;
 }
 
-/** A closed ring of `[x, y]` or `[x, y, z]`. */
-export type Ring = readonly (readonly number[])[];
+/**
+ * A closed ring: points of the plane or of space, all of a polygon alike, or `[2m]` all coordinates xy in
+ * one typed array.
+ */
+export type Ring = readonly (Point2Like | PointLike)[] | Float32Array | Float64Array;
 
-/** A polygon in any form: flat arrays, or one array of points a ring. */
+/** A polygon in any form: flat arrays, or one list of points a ring. */
 export type PolygonLike = PolygonSet | EarcutPolygon | readonly Ring[];
 
 /** Many polygons in flat arrays. */
 export interface PolygonBatch {
   /** `[dim · n]` */
-  readonly positions: Float64Array;
+  readonly positions: Float32Array | Float64Array;
   /** `[r + 1]` in vertices, first 0, increasing, last n. */
-  readonly ringStarts: Uint32Array;
+  readonly ringStarts: Uint32Array | readonly number[];
   /** `[p + 1]` in rings, first 0, increasing, last r. */
-  readonly polygonStarts: Uint32Array;
+  readonly polygonStarts: Uint32Array | readonly number[];
   /** Default 2. */
   readonly dim?: 2 | 3;
 }
+
+/** Many polygons in either form: flat arrays, or an array of polygons, each an array of rings. */
+export type PolygonsLike = PolygonBatch | readonly (readonly Ring[])[];
 
 export interface PolygonOptions {
   /** `'flooding'` (default, Ronfard and Rossignac 1994) or `'trapezoids'` (Kumar): better angles. */
@@ -226,7 +258,10 @@ export interface PolygonOptions {
   readonly trace?: boolean;
   /**
    * Whether the typed arrays of the result may be views of the core's memory, which spares a copy: they
-   * are good until soapfilm is called again. Default `false`. A worker's results are always one's own.
+   * are good until the next call of `triangulatePolygon`, `triangulatePolygons` or `triangulateGeoJSON`,
+   * even one that throws. What they hold afterwards is whatever the core has put there, or nothing, with
+   * length 0, once its memory has grown; `load({ checks: true })` makes sure of the latter. They are not to
+   * be written to or transferred. Default `false`. A worker's results are always one's own.
    */
   readonly borrow?: boolean;
   /** Memory that the core may use. Default 3 GiB. */
@@ -306,9 +341,14 @@ export interface PolygonState {
   readonly certified: boolean;
 }
 
-/** A GeoJSON object, as far as it matters here. */
+/** A GeoJSON object, as far as it matters here: those of `@types/geojson` are, and so are parsed ones. */
 export interface GeoJSONLike {
   readonly type: string;
+  readonly coordinates?: unknown;
+  readonly geometry?: unknown;
+  readonly geometries?: unknown;
+  readonly features?: unknown;
+  readonly properties?: unknown;
 }
 
 export interface GeoJSONTriangulation extends PolygonsTriangulation {
@@ -336,4 +376,10 @@ export interface LoadOptions {
    * library's own module.
    */
   readonly wasm?: WasmSource | Readonly<Partial<Record<Part, WasmSource>>>;
+  /**
+   * Whether to lend, with `borrow`, copies which the next call detaches, so that arrays that are used for
+   * too long are empty at once, and not just in rare cases wrong. For tests; results are then no quicker to
+   * get than one's own. Default: as it is, at first `false`. Workers lend nothing.
+   */
+  readonly checks?: boolean;
 }

@@ -1,24 +1,28 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 // The entry `soapfilm/worker`: the library's functions in threads of their own.
-import { SoapfilmError } from './errors.js';
+import { guarded, mustBe, optionsOf } from './check.js';
 import { kDispose } from './dispose.js';
 import { compile } from './compile.js';
-import { checkNames, kLoadOptions, kPolygonOptions, kPolygonsOptions, kSpanOptions } from './options.js';
+import { flattenLoops } from './flatten.js';
+import { flattenGeoJSON } from './geojson.js';
+import { kLoadOptions, kPolygonOptions, kPolygonsOptions, kSpanOptions } from './options.js';
+import { flattenBatch, flattenPolygon, polygonOptionsOf, type FlatPolygons } from './polygon_input.js';
 import { Pool } from './pool.js';
-import { unpackErrors, type Calls } from './protocol.js';
+import { unpackErrors } from './protocol.js';
+import { tellEnd } from './report.js';
+import { spanOptionsOf } from './span_input.js';
 import type {
   GeoJSONLike,
   GeoJSONTriangulation,
   LoadOptions,
   LoopsLike,
   NoSpan,
-  PolygonBatch,
   PolygonLike,
   PolygonOptions,
+  PolygonsLike,
   PolygonsOptions,
   PolygonsTriangulation,
   PolygonTriangulation,
-  Ring,
   Span,
   SpanOptions,
 } from './types.js';
@@ -41,8 +45,9 @@ export interface CallOptions {
 
 /**
  * A pool of threads. Its functions are like those of the package's main entry. Calls start in order as
- * threads become free. Input is copied when the call is made; results are the caller's own. Errors are those of the synchronous functions, and
- * `cancelled`, `disposed`, `crashed`; after any of them but `disposed` the next call works.
+ * threads become free. Input is checked and copied into flat arrays when the call is made, and those are
+ * handed over to the thread; results are the caller's own. Errors are those of the synchronous functions,
+ * and `cancelled`, `disposed`, `crashed`; after any of them but `disposed` the next call works.
  */
 export interface Film {
   /** Its listeners are called in this thread. */
@@ -52,7 +57,7 @@ export interface Film {
     options?: PolygonOptions & CallOptions,
   ): Promise<PolygonTriangulation>;
   triangulatePolygons(
-    polygons: PolygonBatch | readonly (readonly Ring[])[],
+    polygons: PolygonsLike,
     options?: PolygonsOptions & CallOptions,
   ): Promise<PolygonsTriangulation>;
   triangulateGeoJSON(
@@ -69,32 +74,33 @@ export interface Film {
  * @throws SoapfilmError `load-failed`, `bad-option`
  */
 export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
-  checkNames(options, { ...kLoadOptions, size: true });
-  const { size = 1 } = options;
-  if (!Number.isInteger(size) || size < 1) {
-    throw new SoapfilmError('bad-option', '`size` is a whole number of threads, at least 1');
+  const { size = 1, ...given } = optionsOf<WorkerOptions>(options, { ...kLoadOptions, size: true });
+  if (typeof size !== 'number' || !Number.isInteger(size) || size < 1) {
+    throw mustBe('bad-option', 'size', 'a whole number of threads, at least 1', size);
   }
-  const pool = new Pool(await compile(options), size);
+  const pool = new Pool(await compile(given as LoadOptions), size);
   await pool.start();
   const dispose = (): void => {
     pool.dispose();
   };
-  const several =
-    <T extends PolygonsTriangulation>(name: 'triangulatePolygons' | 'triangulateGeoJSON') =>
-    async (input: Parameters<Calls[typeof name]>[0], options: PolygonsOptions & CallOptions = {}) => {
-      checkNames(options, { ...kPolygonsOptions, signal: true });
-      const { signal, ...rest } = options;
-      const call = [input, rest] as Parameters<Calls[typeof name]>;
-      return unpackErrors((await pool.call(name, call, { signal })) as T);
-    };
+  const several = async <T extends PolygonsTriangulation>(
+    { positions, ringStarts, polygonStarts, dim }: FlatPolygons,
+    options: PolygonsOptions & CallOptions = {},
+  ): Promise<T> => {
+    const { signal, ...given } = optionsOf<PolygonsOptions & CallOptions>(options, { ...kPolygonsOptions, signal: true });
+    const input = { positions, ringStarts, polygonStarts, dim };
+    const watch = { signal: signalOf(signal) };
+    return unpackErrors((await pool.call('triangulatePolygons', [input, polygonOptionsOf(given)], watch)) as T);
+  };
   return {
     async spanLoops(loops, options = {}) {
-      checkNames(options, { ...kSpanOptions, signal: true });
-      const { signal, onProgress, onBest, ...rest } = options;
+      const input = flattenLoops(loops, true);
+      const { signal, ...given } = optionsOf<SpanOptions & CallOptions>(options, { ...kSpanOptions, signal: true });
+      const { onProgress, onBest, ...rest } = spanOptionsOf(given, input, true);
       // What is proven after the last surface was heard of holds for it as well.
       let bound = 0;
       const watch = {
-        signal,
+        signal: signalOf(signal),
         onProgress:
           onProgress || rest.bestSoFar
             ? (fraction: number, cost: number, lowerBound: number) => {
@@ -108,19 +114,37 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
         },
         keepsBest: rest.bestSoFar,
       };
-      const span = (await pool.call('spanLoops', [loops, rest], watch)) as Span | NoSpan;
-      if (!span.found || span.optimal || span.lowerBound >= bound) return span;
-      return { ...span, lowerBound: Math.min(bound, span.cost) };
+      let span = (await pool.call('spanLoops', [input, rest], watch)) as Span | NoSpan;
+      if (span.found && !span.optimal && span.lowerBound < bound) {
+        span = { ...span, lowerBound: Math.min(bound, span.cost) };
+      }
+      tellEnd(span, onProgress);
+      return span;
     },
     async triangulatePolygon(polygon, options = {}) {
-      checkNames(options, { ...kPolygonOptions, signal: true });
-      const { signal, ...rest } = options;
-      const result = await pool.call('triangulatePolygon', [polygon, rest], { signal });
+      const { positions, ringStarts: starts, dim, points } = flattenPolygon(polygon, true);
+      const input = { positions, starts, dim, ...(points && { points }) };
+      const { signal, ...given } = optionsOf<PolygonOptions & CallOptions>(options, { ...kPolygonOptions, signal: true });
+      const watch = { signal: signalOf(signal) };
+      const result = await pool.call('triangulatePolygon', [input, polygonOptionsOf(given)], watch);
       return result as PolygonTriangulation;
     },
-    triangulatePolygons: several<PolygonsTriangulation>('triangulatePolygons'),
-    triangulateGeoJSON: several<GeoJSONTriangulation>('triangulateGeoJSON'),
+    triangulatePolygons: async (polygons, options) => several(flattenBatch(polygons, true), options),
+    triangulateGeoJSON: async (geojson, options) => {
+      const { flat, featureStarts } = flattenGeoJSON(geojson);
+      // The thread's copy is handed over.
+      const positions = flat.positions.slice();
+      return { ...(await several(flat, options)), positions, featureStarts };
+    },
     dispose,
     [kDispose]: dispose,
   };
+}
+
+function signalOf(signal: unknown): AbortSignal | undefined {
+  if (signal === undefined) return undefined;
+  // Heirs of the prototype that are none throw here.
+  const isSignal = (): boolean => signal instanceof AbortSignal && typeof signal.aborted === 'boolean';
+  if (guarded('bad-option', 'signal', isSignal)) return signal as AbortSignal;
+  throw mustBe('bad-option', 'signal', 'an AbortSignal', signal);
 }

@@ -46,9 +46,9 @@ namespace {
 struct Call {
   std::vector<double> positions, normals, triangleWeights;
   std::vector<uint32_t> starts{0}, triangles, start;
-  double settings[7] = {0, 0, 1, 0, 1, 1e9, 0};
+  SfSpanSettings settings{0, 0, 1, 0, 1, 1e9, 0};
 
-  uint32_t where[4] = {};
+  SfPlace where{};
   SfResult* result = nullptr;
 
   void add(const Curve& curve) {
@@ -69,7 +69,7 @@ struct Call {
         p.get(), s.get(), uint32_t(starts.size() - 1), normals.empty() ? nullptr : n.get(),
         triangles.empty() ? nullptr : t.get(), uint32_t(triangles.size() / 3),
         triangleWeights.empty() ? nullptr : w.get(), start.empty() ? nullptr : b.get(),
-        uint32_t(start.size() / 3), settings, where, &result);
+        uint32_t(start.size() / 3), &settings, &where, &result);
   }
 };
 
@@ -78,6 +78,12 @@ std::vector<T> array(const SfResult* result, uint32_t which) {
   const T* data = static_cast<const T*>(sf_result_data(result, which));
   size_t length = sf_result_length(result, which);
   return std::vector<T>(data, data + length);
+}
+
+SfSpanNumbers numbersOf(const SfResult* result) {
+  SfSpanNumbers numbers;
+  std::memcpy(&numbers, sf_result_data(result, SfSpan_numbers), sizeof numbers);
+  return numbers;
 }
 
 double wildNumber(Random& random) {
@@ -131,19 +137,22 @@ Call wildCall(Random& random) {
   if (loops > 0 && random.chance(0.05))
     call.starts[random.below(loops)] = random.chance(0.5) ? random.below(20) : random.bits();
 
-  for (int i = 0; i < 3; ++i) {
-    call.settings[i] = random.chance(0.5) ? random.unit() : 0;
-    if (i == 0 && random.chance(0.1)) call.settings[i] = std::nan("");
-    if (random.chance(0.03)) call.settings[i] = wildNumber(random);
+  SfSpanSettings& settings = call.settings;
+  for (double* weight :
+       {&settings.areaWeight, &settings.perimeterWeight, &settings.dihedralWeight}) {
+    *weight = random.chance(0.5) ? random.unit() : 0;
+    if (weight == &settings.areaWeight && random.chance(0.1)) *weight = std::nan("");
+    if (random.chance(0.03)) *weight = wildNumber(random);
   }
-  call.settings[3] = random.chance(0.3);
-  call.settings[4] = random.below(5);
-  call.settings[5] = random.chance(0.2) ? std::exp2(random.range(0, 22)) : 1e9;
-  call.settings[6] = random.chance(0.3);
+  settings.objective = random.chance(0.3);
+  settings.space = random.below(5);
+  settings.maxBytes = random.chance(0.2) ? std::exp2(random.range(0, 22)) : 1e9;
+  settings.bestSoFar = random.chance(0.3);
   if (random.chance(0.2))
     for (uint32_t i = 0; i < 3 * n; ++i) call.start.push_back(random.below(n + 2));
-  for (int i = 3; i < 7; ++i)
-    if (random.chance(0.02)) call.settings[i] = wildNumber(random);
+  for (double* setting :
+       {&settings.objective, &settings.space, &settings.maxBytes, &settings.bestSoFar})
+    if (random.chance(0.02)) *setting = wildNumber(random);
 
   if (n > 0 && random.chance(0.2))
     for (uint32_t i = 0; i < 3 * n; ++i)
@@ -169,30 +178,33 @@ Call goodCall() {
 /// Reads a result back and judges it like any other answer.
 std::string resultFault(const Call& call) {
   sf::Span span;
-  auto figures = array<double>(call.result, 5);
-  if (figures.size() != 14) return "not 14 figures";
-  span.found = figures[0] != 0;
+  if (array<double>(call.result, SfSpan_numbers).size() * sizeof(double) != sizeof(SfSpanNumbers))
+    return "not all numbers";
+  const SfSpanNumbers numbers = numbersOf(call.result);
+  span.found = numbers.found != 0;
   if (!span.found) return "";
-  auto positions = array<double>(call.result, 0);
+  auto positions = array<double>(call.result, SfSpan_positions);
   for (size_t i = 0; i + 2 < positions.size(); i += 3)
     span.positions.push_back({positions[i], positions[i + 1], positions[i + 2]});
-  span.triangles = array<uint32_t>(call.result, 1);
-  span.order = array<uint32_t>(call.result, 2);
-  span.starts = array<uint32_t>(call.result, 3);
-  span.loopVertices = array<uint32_t>(call.result, 4);
-  auto places = array<uint32_t>(call.result, 6);
-  auto parameters = array<double>(call.result, 7);
+  span.triangles = array<uint32_t>(call.result, SfSpan_triangles);
+  span.order = array<uint32_t>(call.result, SfSpan_order);
+  span.starts = array<uint32_t>(call.result, SfSpan_starts);
+  span.loopVertices = array<uint32_t>(call.result, SfSpan_loopVertices);
+  auto places = array<uint32_t>(call.result, SfSpan_insertedPlaces);
+  auto parameters = array<double>(call.result, SfSpan_insertedParameters);
   if (places.size() != 2 * parameters.size()) return "inserted vertices without a place";
   for (size_t i = 0; i < parameters.size(); ++i)
     span.inserted.push_back({places[2 * i], places[2 * i + 1], parameters[i]});
-  span.cost = figures[2], span.lowerBound = figures[3], span.optimal = figures[4] != 0;
-  span.terms = {figures[5], figures[6], figures[7], figures[8], figures[9]};
+  span.cost = numbers.cost, span.lowerBound = numbers.lowerBound;
+  span.optimal = numbers.optimal != 0;
+  span.terms = {numbers.area, numbers.perimeter, numbers.dihedral, numbers.worstDihedral,
+                numbers.own};
   sf::SpanOptions options;
-  options.areaWeight = call.settings[0];
-  options.perimeterWeight = call.settings[1];
-  options.dihedralWeight = call.settings[2];
-  options.objective = sf::Objective(int(call.settings[3]));
-  options.space = sf::Space(int(call.settings[4]));
+  options.areaWeight = call.settings.areaWeight;
+  options.perimeterWeight = call.settings.perimeterWeight;
+  options.dihedralWeight = call.settings.dihedralWeight;
+  options.objective = sf::Objective(int(call.settings.objective));
+  options.space = sf::Space(int(call.settings.space));
   options.boundaryNormals = call.normals;
   options.triangles = call.triangles;
   options.triangleWeights = call.triangleWeights;
@@ -244,8 +256,8 @@ TEST_CASE("abi: ten thousand random inputs end with a known status, and a good c
     // An answer has arrays, anything else has none.
     REQUIRE((call.result != nullptr) == (status <= 1));
     if (status > 1) {
-      CHECK(isPlace(call.where[0], call.where[1], call));
-      CHECK(isPlace(call.where[2], call.where[3], call));
+      CHECK(isPlace(call.where.loop, call.where.vertex, call));
+      CHECK(isPlace(call.where.otherLoop, call.where.otherVertex, call));
     }
     // Sizes near the ends of double's range have areas that no longer mean anything.
     double size = 0;
@@ -263,7 +275,7 @@ TEST_CASE("abi: ten thousand random inputs end with a known status, and a good c
 
 TEST_CASE("abi: a call that is stopped at any moment leaves the next one unharmed") {
   Call whole;
-  whole.settings[4] = 1;
+  whole.settings.space = 1;
   for (const Curve& curve : {circle(5), circle(4, 1, {0, 0, 1}), circle(4, 1, {0.1, 0.2, 2.5})})
     whole.add(curve);
   expectReports(0xFFFFFFFF);
@@ -287,13 +299,13 @@ TEST_CASE("abi: every memory limit is kept to, with a status that says so") {
   Call unlimited = goodCall();
   expectReports(0xFFFFFFFF);
   REQUIRE(unlimited.run() == 0);
-  double peak = array<double>(unlimited.result, 5)[13];
+  double peak = numbersOf(unlimited.result).peakBytes;
   sf_result_free(unlimited.result);
   CHECK(peak > 0);
   int refused = 0, solved = 0;
   for (double limit = 1; limit < 4 * peak; limit *= 1.5) {
     Call call = goodCall();
-    call.settings[5] = limit;
+    call.settings.maxBytes = limit;
     SfStatus status = call.run();
     bool out =
         status == int32_t(sf::Status::TooLarge) || status == int32_t(sf::Status::OutOfMemory);
@@ -303,7 +315,7 @@ TEST_CASE("abi: every memory limit is kept to, with a status that says so") {
     if (status != 0) continue;
     ++solved;
     CHECK(resultFault(call) == "");
-    CHECK(array<double>(call.result, 5)[13] <= limit);
+    CHECK(numbersOf(call.result).peakBytes <= limit);
     sf_result_free(call.result);
   }
   CHECK(refused > 3);

@@ -20,9 +20,9 @@ namespace {
 struct PolygonCall {
   std::vector<double> positions, points;
   std::vector<uint32_t> ringStarts{0}, polygonStarts{0};
-  double settings[8] = {2, 0, 0, 0, 0, 0, 0, 1e9};
+  SfPolygonSettings settings{2, 0, 0, 0, 0, 0, 0, 1e9};
 
-  uint32_t where[4] = {};
+  SfPlace where{};
   SfResult* result = nullptr;
 
   PolygonCall() = default;
@@ -43,7 +43,7 @@ struct PolygonCall {
     return Status(sf_triangulate_polygons(
         positions.data(), ringStarts.data(), uint32_t(ringStarts.size()) - 1, polygonStarts.data(),
         uint32_t(polygonStarts.size()) - 1, points.data(), uint32_t(points.size() / dimension),
-        settings, where, &result));
+        &settings, &where, &result));
   }
   template <class T>
   std::vector<T> array(uint32_t i) const {
@@ -62,9 +62,11 @@ uint32_t hashOf(const void* data, size_t bytes, uint32_t hash = 2166136261u) {
 /// Over triangles to added edges.
 uint32_t hashOf(const PolygonCall& call) {
   uint32_t hash = 2166136261u;
-  for (uint32_t i = 0; i < 7; ++i)
+  for (const auto i :
+       {SfPolygon_triangles, SfPolygon_triangleStarts, SfPolygon_strips, SfPolygon_stripStarts,
+        SfPolygon_polygonStrips, SfPolygon_added, SfPolygon_addedOn})
     hash = hashOf(sf_result_data(call.result, i),
-                  (i == 5 ? 8 : 4) * sf_result_length(call.result, i), hash);
+                  (i == SfPolygon_added ? 8 : 4) * sf_result_length(call.result, i), hash);
   return hash;
 }
 
@@ -94,21 +96,22 @@ std::string checksums(const std::string& family, uint32_t n, uint32_t seed) {
   const Polygon polygon = polygonNamed(family, n, random);
   const bool broken = family.find("garbage") != std::string::npos;
   std::string row = hex(hashOf(polygon.positions.data(), 8 * polygon.positions.size()));
-  const auto append = [&](std::initializer_list<std::pair<int, double>> choices) {
+  using Settings = SfPolygonSettings;
+  const auto append = [&](std::initializer_list<std::pair<double Settings::*, double>> choices) {
     PolygonCall call;
     call.add(polygon);
-    call.settings[2] = broken ? 1 : 0;
-    for (const auto& [i, value] : choices) call.settings[i] = value;
+    call.settings.repair = broken ? 1 : 0;
+    for (const auto& [setting, value] : choices) call.settings.*setting = value;
     REQUIRE(call.run() == Status::Ok);
-    REQUIRE(call.array<uint32_t>(8).empty());
+    REQUIRE(call.array<uint32_t>(SfPolygon_faults).empty());
     row += "," + hex(hashOf(call));
   };
-  append({{1, 0}});
-  append({{1, 0}, {3, 1}, {5, 1}});
-  append({{1, 1}});
-  append({{1, 1}, {3, 1}});
-  append({{1, 1}, {4, 1}});
-  append({{2, 2}});
+  append({{&Settings::method, 0}});
+  append({{&Settings::method, 0}, {&Settings::delaunay, 1}, {&Settings::verify, 1}});
+  append({{&Settings::method, 1}});
+  append({{&Settings::method, 1}, {&Settings::delaunay, 1}});
+  append({{&Settings::method, 1}, {&Settings::strips, 1}});
+  append({{&Settings::repair, 2}});
   return row;
 }
 
@@ -164,10 +167,11 @@ TEST_CASE("polygons, C ABI: planes of any tilt give the triangles of the plane")
       PolygonCall call;
       call.add(polygon);
       call.positions = place(polygon, tilt);
-      call.settings[0] = 3;
+      call.settings.dimension = 3;
       REQUIRE(call.run() == Status::Ok);
-      CHECK(call.array<uint32_t>(8).empty());
-      CHECK(call.array<uint32_t>(0).size() == flat.array<uint32_t>(0).size());
+      CHECK(call.array<uint32_t>(SfPolygon_faults).empty());
+      CHECK(call.array<uint32_t>(SfPolygon_triangles).size() ==
+            flat.array<uint32_t>(SfPolygon_triangles).size());
     }
   }
 }
@@ -176,7 +180,7 @@ TEST_CASE(
     "polygons, C ABI: a fault is named with its polygon and place, the others are triangulated") {
   for (const double dimension : {2.0, 3.0}) {
     PolygonCall call;
-    call.settings[0] = dimension;
+    call.settings.dimension = dimension;
     const Polygon square = polygonOf({{{0, 0}, {4, 0}, {4, 4}, {0, 4}}});
     const Polygon bowTie = polygonOf({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}});
     for (const Polygon& polygon : {square, bowTie, square}) call.add(polygon);
@@ -187,10 +191,10 @@ TEST_CASE(
       call.positions = in3;
     }
     REQUIRE(call.run() == Status::Ok);
-    CHECK(call.array<uint32_t>(1) == std::vector<uint32_t>{0, 2, 2, 4});
-    CHECK(call.array<uint32_t>(8) ==
+    CHECK(call.array<uint32_t>(SfPolygon_triangleStarts) == std::vector<uint32_t>{0, 2, 2, 4});
+    CHECK(call.array<uint32_t>(SfPolygon_faults) ==
           std::vector<uint32_t>{1, uint32_t(Status::SelfIntersecting), 0, 0, 0, 2});
-    const std::vector<double> place = call.array<double>(9);
+    const std::vector<double> place = call.array<double>(SfPolygon_faultPoints);
     CHECK(place == (dimension == 2 ? std::vector<double>{1, 1} : std::vector<double>{7, 1, 1}));
   }
 }
@@ -208,8 +212,8 @@ TEST_CASE("polygons, C ABI: random arguments end with a status, and arrays that 
   for (int i = 0; i < 3000; ++i) {
     CAPTURE(i);
     PolygonCall call;
-    call.settings[0] = 2 + random.below(2);
-    const uint32_t dimension = uint32_t(call.settings[0]);
+    call.settings.dimension = 2 + random.below(2);
+    const uint32_t dimension = uint32_t(call.settings.dimension);
     for (uint32_t p = random.below(4); p > 0; --p) {
       const bool valid = random.chance(0.6);
       call.add(valid ? smallPolygon(random) : garbage(random.below(3), random.below(9), 4, random));
@@ -221,12 +225,18 @@ TEST_CASE("polygons, C ABI: random arguments end with a status, and arrays that 
     if (random.chance(0.1) && !call.positions.empty())
       call.positions[random.below(uint32_t(call.positions.size()))] = odd[random.below(6)];
     if (random.chance(0.1)) call.points.assign(dimension * size_t(random.below(4)), 0.5);
-    const uint32_t most[] = {0, 2, 3, 2, 2, 2, 2};
-    for (int k = 1; k < 7; ++k) call.settings[k] = random.below(most[k]);
-    if (random.chance(0.05)) call.settings[random.below(8)] = odd[random.below(6)];
+    SfPolygonSettings& settings = call.settings;
+    settings.method = random.below(2), settings.repair = random.below(3);
+    for (double* yesOrNo :
+         {&settings.delaunay, &settings.strips, &settings.verify, &settings.trace})
+      *yesOrNo = random.below(2);
+    double* const all[] = {&settings.dimension, &settings.method,  &settings.repair,
+                           &settings.delaunay,  &settings.strips,  &settings.verify,
+                           &settings.trace,     &settings.maxBytes};
+    if (random.chance(0.05)) *all[random.below(8)] = odd[random.below(6)];
     if (random.chance(0.05) && call.ringStarts.size() > 2)
       std::swap(call.ringStarts[1], call.ringStarts[2]);
-    if (random.chance(0.1)) call.settings[7] = random.below(20000);
+    if (random.chance(0.1)) settings.maxBytes = random.below(20000);
     const Status status = call.run();
     CHECK((status == Status::Ok) == (call.result != nullptr));
     if (status != Status::Ok) {
@@ -236,36 +246,39 @@ TEST_CASE("polygons, C ABI: random arguments end with a status, and arrays that 
       continue;
     }
     const size_t p = call.polygonStarts.size() - 1;
-    const std::vector<uint32_t> triangles = call.array<uint32_t>(0),
-                                starts = call.array<uint32_t>(1);
+    const std::vector<uint32_t> triangles = call.array<uint32_t>(SfPolygon_triangles),
+                                starts = call.array<uint32_t>(SfPolygon_triangleStarts);
     REQUIRE(starts.size() == p + 1);
     CHECK(3 * starts[p] == triangles.size());
     const size_t n = call.ringStarts.back() + call.points.size() / dimension +
-                     call.array<double>(5).size() / dimension;
+                     call.array<double>(SfPolygon_added).size() / dimension;
     for (const uint32_t v : triangles) CHECK(v < n);
-    for (const uint32_t v : call.array<uint32_t>(2)) CHECK(v < n);
-    CHECK(call.array<uint32_t>(4).size() == p + 1);
-    CHECK(call.array<uint32_t>(6).size() * dimension == 2 * call.array<double>(5).size());
-    CHECK(call.array<uint32_t>(8).size() * dimension == 6 * call.array<double>(9).size());
+    for (const uint32_t v : call.array<uint32_t>(SfPolygon_strips)) CHECK(v < n);
+    CHECK(call.array<uint32_t>(SfPolygon_polygonStrips).size() == p + 1);
+    CHECK(call.array<uint32_t>(SfPolygon_addedOn).size() * dimension ==
+          2 * call.array<double>(SfPolygon_added).size());
+    CHECK(call.array<uint32_t>(SfPolygon_faults).size() * dimension ==
+          6 * call.array<double>(SfPolygon_faultPoints).size());
   }
 }
 
 TEST_CASE("polygon sessions, C ABI: numbers are given again, and those of none are refused") {
   const Polygon square = polygonOf({{{0, 0}, {4, 0}, {4, 4}, {0, 4}}});
-  uint32_t where[4];
+  SfPlace where;
   SfResult* result = nullptr;
   const auto open = [&] {
     REQUIRE(sf_session_open(square.positions.data(), square.starts.data(), 1, nullptr, 0, 1e9,
-                            where, &result) == 0);
-    const uint32_t number = *static_cast<const uint32_t*>(sf_result_data(result, 0));
-    CHECK(sf_result_length(result, 1) == 6);
+                            &where, &result) == 0);
+    const uint32_t number = *static_cast<const uint32_t*>(sf_result_data(result, SfOpened_session));
+    CHECK(sf_result_length(result, SfOpened_triangles) == 6);
     sf_result_free(result);
     return number;
   };
   const auto edit = [&](uint32_t session, uint32_t action, uint32_t vertex, double x, double y) {
-    const SfStatus status = sf_session_edit(session, action, vertex, x, y, where, &result);
-    const uint32_t* facts = static_cast<const uint32_t*>(sf_result_data(result, 0));
-    const Status found = Status(status == 0 ? int32_t(facts[2]) : status);
+    const SfStatus status = sf_session_edit(session, action, vertex, x, y, &where, &result);
+    const void* edited = sf_result_data(result, SfEdit_edit);
+    const Status found =
+        Status(status == 0 ? int32_t(static_cast<const SfEditFacts*>(edited)->status) : status);
     sf_result_free(result);
     return found;
   };
@@ -275,13 +288,17 @@ TEST_CASE("polygon sessions, C ABI: numbers are given again, and those of none a
   CHECK(edit(b, 3, 0, 2, 9) == Status::SelfIntersecting);
   CHECK(edit(b, 4, 0, 1, 1) == Status::BadOption);
   CHECK(edit(77, 1, 0, 1, 1) == Status::BadOption);
+  // Vertices that the polygon has not; the numbers before 2^32 are those of the box around it.
+  for (const uint32_t vertex : {4u, 0xFFFFFFFCu, 0xFFFFFFFEu, 0xFFFFFFFFu})
+    for (const uint32_t action : {0u, 2u, 3u})
+      CHECK(edit(b, action, vertex, 1, 1) == Status::BadOption);
   CHECK(sf_session_close(a) == 0);
   CHECK(edit(a, 1, 0, 1, 2) == Status::BadOption);
-  CHECK(Status(sf_session_read(a, where, &result)) == Status::BadOption);
+  CHECK(Status(sf_session_read(a, &where, &result)) == Status::BadOption);
   CHECK(open() == a);
-  REQUIRE(sf_session_read(b, where, &result) == 0);
-  CHECK(sf_result_length(result, 0) == 8);
-  CHECK(*static_cast<const uint32_t*>(sf_result_data(result, 4)) == 1);
+  REQUIRE(sf_session_read(b, &where, &result) == 0);
+  CHECK(sf_result_length(result, SfState_positions) == 8);
+  CHECK(*static_cast<const uint32_t*>(sf_result_data(result, SfState_certified)) == 1);
   sf_result_free(result);
   for (const uint32_t session : {a, b, b, 12345u}) CHECK(sf_session_close(session) == 0);
 }

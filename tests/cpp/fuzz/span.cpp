@@ -41,11 +41,11 @@ const T* array(const SfResult* result, uint32_t index, size_t& length) {
 /// Counts, index ranges, and the valence of every edge of a surface that was handed back.
 void checkSurface(const SfResult* result, uint32_t loopCount) {
   size_t coordinates, indices, orders, startCount, loopLength;
-  array<double>(result, 0, coordinates);
-  const uint32_t* triangles = array<uint32_t>(result, 1, indices);
-  array<uint32_t>(result, 2, orders);
-  const uint32_t* starts = array<uint32_t>(result, 3, startCount);
-  const uint32_t* loops = array<uint32_t>(result, 4, loopLength);
+  array<double>(result, SfSpan_positions, coordinates);
+  const uint32_t* triangles = array<uint32_t>(result, SfSpan_triangles, indices);
+  array<uint32_t>(result, SfSpan_order, orders);
+  const uint32_t* starts = array<uint32_t>(result, SfSpan_starts, startCount);
+  const uint32_t* loops = array<uint32_t>(result, SfSpan_loopVertices, loopLength);
   const size_t n = coordinates / 3;
   require(coordinates % 3 == 0 && indices % 3 == 0, "whole points and triangles");
   require(indices / 3 == n + 2 * loopCount - 4, "n + 2k - 4 triangles");
@@ -78,7 +78,7 @@ extern "C" int32_t sf_host_progress(double, double, double) {
 }
 
 extern "C" void sf_host_result(const SfResult* result) {
-  require(sf_result_length(result, 1) > 0, "a surface so far has triangles");
+  require(sf_result_length(result, SfSpan_triangles) > 0, "a surface so far has triangles");
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -99,9 +99,17 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
 
   const bool hasNormals = in.below(4) == 0;
   const uint32_t space = in.below(6);
-  double settings[7] = {weight(in),    weight(in), weight(in),         double(in.below(3)),
-                        double(space), 16e6,       double(in.below(2))};
-  if (in.below(64) == 63) settings[3 + in.below(4)] = in.raw();
+  SfSpanSettings settings;
+  settings.areaWeight = weight(in);
+  settings.perimeterWeight = weight(in);
+  settings.dihedralWeight = weight(in);
+  settings.objective = double(in.below(3));
+  settings.space = double(space);
+  settings.maxBytes = 16e6;
+  settings.bestSoFar = double(in.below(2));
+  double* const odd[] = {&settings.objective, &settings.space, &settings.maxBytes,
+                         &settings.bestSoFar};
+  if (in.below(64) == 63) *odd[in.below(4)] = in.raw();
   const uint32_t triangleCount = space == 4 ? in.below(40) : 0;
   const bool hasTriangleWeights = in.below(2) == 0;
 
@@ -121,13 +129,14 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   for (uint32_t i = 0; i < triangleCount; ++i) triangleWeights.push_back(weight(in));
 
   callsLeft = in.below(kMostCalls);
-  uint32_t where[4];
+  SfPlace where;
   SfResult* result = nullptr;
   const SfStatus status = sf_span_loops(
       positions.data(), starts.data(), loopCount, hasNormals ? normals.data() : nullptr,
       space == 4 ? triangles.data() : nullptr, triangleCount,
       hasTriangleWeights && space == 4 ? triangleWeights.data() : nullptr,
-      start.empty() ? nullptr : start.data(), uint32_t(start.size() / 3), settings, where, &result);
+      start.empty() ? nullptr : start.data(), uint32_t(start.size() / 3), &settings, &where,
+      &result);
   require((status <= 1) == (result != nullptr), "a result exactly for status 0 and 1");
   require(status >= 0 && status <= 14, "a status of the list");
   if (status == 0) checkSurface(result, loopCount);

@@ -8,9 +8,9 @@
 
 namespace sf {
 
-/// Whether `value` is one of 0, 1, ..., last.
-inline bool isChoice(double value, int last) {
-  return value >= 0 && value <= last && value == std::floor(value);
+/// Whether `value` is one of 0, 1, ..., count - 1.
+inline bool isChoice(double value, int count) {
+  return value >= 0 && value < count && value == std::floor(value);
 }
 
 /// Whether starts [count + 1] rise from 0.
@@ -29,10 +29,11 @@ inline Work hostWork(double maxBytes) {
   return Work(maxBytes < most ? size_t(maxBytes) : size_t(-1), report, nullptr);
 }
 
-/// Writes the places of an outcome to `where` [4].
-inline void tellWhere(const Outcome& outcome, uint32_t* where) {
-  where[0] = outcome.loop, where[1] = outcome.vertex;
-  where[2] = outcome.otherLoop, where[3] = outcome.otherVertex;
+/// Ends a call: its status, with the place in `where`.
+inline SfStatus endWith(const Outcome& outcome, SfPlace* where) {
+  where->loop = outcome.loop, where->vertex = outcome.vertex;
+  where->otherLoop = outcome.otherLoop, where->otherVertex = outcome.otherVertex;
+  return SfStatus(outcome.status);
 }
 
 }  // namespace sf

@@ -10,7 +10,7 @@ void* sf_alloc(size_t bytes) { return std::malloc(bytes); }
 void sf_free(void* pointer) { std::free(pointer); }
 
 const void* sf_result_data(const SfResult* result, uint32_t array) {
-  return result && array < result->arrays.size() ? result->arrays[array].data : nullptr;
+  return sf_result_length(result, array) > 0 ? result->arrays[array].data : nullptr;
 }
 
 size_t sf_result_length(const SfResult* result, uint32_t array) {

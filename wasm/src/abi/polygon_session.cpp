@@ -1,4 +1,5 @@
 // sf_session_*: polygons that stay in the core while they are edited.
+#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -37,24 +38,25 @@ std::vector<T> copyOf(sf::ArrayView<const T> view) {
   return {view.begin(), view.end()};
 }
 
-SfStatus end(const sf::Outcome& outcome, uint32_t* where) {
-  sf::tellWhere(outcome, where);
-  return SfStatus(outcome.status);
-}
+enum class EditAction : uint32_t {
+#define SF_ACTION(name, value, meaning) name = (value),
+  SF_EDIT_ACTION_CHOICES(SF_ACTION)
+#undef SF_ACTION
+};
 
 }  // namespace
 
 extern "C" {
 
 SfStatus sf_session_open(const double* positions, const uint32_t* ringStarts, uint32_t ringCount,
-                         const double* points, uint32_t pointCount, double maxBytes,
-                         uint32_t* where, SfResult** result) {
+                         const double* points, uint32_t pointCount, double maxBytes, SfPlace* where,
+                         SfResult** result) {
   *result = nullptr;
-  if (!(maxBytes >= 0)) return end({sf::Status::BadOption}, where);
+  if (!(maxBytes >= 0)) return sf::endWith({sf::Status::BadOption}, where);
   if (ringCount == 0 || !sf::isRising(ringStarts, ringCount))
-    return end({sf::Status::BadStarts}, where);
+    return sf::endWith({sf::Status::BadStarts}, where);
   const size_t n = ringStarts[ringCount];
-  if (n + pointCount >= 1u << 29) return end({sf::Status::TooLarge}, where);
+  if (uint64_t(n) + pointCount >= 1u << 29) return sf::endWith({sf::Status::TooLarge}, where);
   const sf::PolygonView polygon{
       {positions, 2 * n}, {ringStarts, size_t(ringCount) + 1}, {points, 2 * size_t(pointCount)}};
   auto opened = std::make_unique<OpenSession>();
@@ -63,73 +65,78 @@ SfStatus sf_session_open(const double* positions, const uint32_t* ringStarts, ui
   const sf::Outcome outcome = opened->session.start(polygon, work);
   if (outcome.ok()) {
     std::vector<uint32_t> triangles = copyOf(opened->session.triangles());
-    *result = new SfResult;
-    (*result)->add(std::vector<uint32_t>{keep(std::move(opened))});
-    (*result)->add(std::move(triangles));
+    *result = new SfResult(SfOpenedArrayCount);
+    (*result)->put<SfOpened_session>(std::vector<uint32_t>{keep(std::move(opened))});
+    (*result)->put<SfOpened_triangles>(std::move(triangles));
   }
-  return end(outcome, where);
+  return sf::endWith(outcome, where);
 }
 
 SfStatus sf_session_edit(uint32_t session, uint32_t action, uint32_t vertex, double x, double y,
-                         uint32_t* where, SfResult** result) {
+                         SfPlace* where, SfResult** result) {
   *result = nullptr;
   OpenSession* opened = find(session);
-  if (!opened || action > 3) return end({sf::Status::BadOption}, where);
+  if (!opened || action >= SF_COUNT(SF_EDIT_ACTION_CHOICES))
+    return sf::endWith({sf::Status::BadOption}, where);
   sf::PolygonSession& edited = opened->session;
   sf::Work work = sf::hostWork(opened->maxBytes);
   sf::Outcome outcome;
-  switch (action) {
-    case 0:
+  switch (EditAction(action)) {
+    case EditAction::InsertVertex:
       outcome = edited.insertVertex(vertex, {x, y}, work, vertex);
       break;
-    case 1:
+    case EditAction::InsertIsolated:
       outcome = edited.insertIsland({x, y}, work, vertex);
       break;
-    case 2:
+    case EditAction::Delete:
       outcome = edited.deleteVertex(vertex, work);
       break;
-    default:
+    case EditAction::Move:
       outcome = edited.moveVertex(vertex, {x, y}, work);
   }
-  // All in one array: an edit takes less than to hand over many.
   const sf::ArrayView<const uint32_t> triangles = edited.triangles();
   const uint32_t count = uint32_t(triangles.size() / 3);
-  std::vector<uint32_t> told = {vertex,
-                                count,
-                                uint32_t(outcome.status),
-                                outcome.loop,
-                                outcome.vertex,
-                                outcome.otherLoop,
-                                outcome.otherVertex};
+  SfEditFacts facts{};
+  facts.vertex = vertex;
+  facts.triangleCount = count;
+  facts.status = uint32_t(outcome.status);
+  facts.loop = outcome.loop;
+  facts.atVertex = outcome.vertex;
+  facts.otherLoop = outcome.otherLoop;
+  facts.otherVertex = outcome.otherVertex;
   const sf::ArrayView<const uint32_t> changed = edited.changedTriangles();
-  told.reserve(told.size() + 4 * changed.size());
+  constexpr size_t kFacts = sizeof facts / sizeof(uint32_t);
+  std::vector<uint32_t> edit;
+  edit.reserve(kFacts + 4 * changed.size());
+  edit.resize(kFacts);
+  std::memcpy(edit.data(), &facts, sizeof facts);
   for (const uint32_t t : changed)
-    if (t < count) told.push_back(t);
+    if (t < count) edit.push_back(t);
   for (const uint32_t t : changed)
     if (t < count)
-      told.insert(told.end(), &triangles[3 * size_t(t)], &triangles[3 * size_t(t)] + 3);
-  *result = new SfResult;
-  (*result)->add(std::move(told));
-  return end({}, where);
+      edit.insert(edit.end(), &triangles[3 * size_t(t)], &triangles[3 * size_t(t)] + 3);
+  *result = new SfResult(SfEditArrayCount);
+  (*result)->put<SfEdit_edit>(std::move(edit));
+  return sf::endWith({}, where);
 }
 
-SfStatus sf_session_read(uint32_t session, uint32_t* where, SfResult** result) {
+SfStatus sf_session_read(uint32_t session, SfPlace* where, SfResult** result) {
   *result = nullptr;
   const OpenSession* opened = find(session);
-  if (!opened) return end({sf::Status::BadOption}, where);
+  if (!opened) return sf::endWith({sf::Status::BadOption}, where);
   sf::Work work = sf::hostWork(opened->maxBytes);
   std::vector<uint32_t> strips, starts, next;
-  if (!opened->session.strips(work, strips, starts)) return end({work.status()}, where);
+  if (!opened->session.strips(work, strips, starts)) return sf::endWith({work.status()}, where);
   const uint32_t n = uint32_t(opened->session.positions().size() / 2);
   for (uint32_t v = 0; v < n; ++v)
     next.push_back(opened->session.isVertex(v) ? opened->session.nextInRing(v) : v);
-  *result = new SfResult;
-  (*result)->add(copyOf(opened->session.positions()));
-  (*result)->add(std::move(next));
-  (*result)->add(std::move(strips));
-  (*result)->add(std::move(starts));
-  (*result)->add(std::vector<uint32_t>{opened->session.certify()});
-  return end({}, where);
+  *result = new SfResult(SfStateArrayCount);
+  (*result)->put<SfState_positions>(copyOf(opened->session.positions()));
+  (*result)->put<SfState_next>(std::move(next));
+  (*result)->put<SfState_strips>(std::move(strips));
+  (*result)->put<SfState_stripStarts>(std::move(starts));
+  (*result)->put<SfState_certified>(std::vector<uint32_t>{opened->session.certify()});
+  return sf::endWith({}, where);
 }
 
 SfStatus sf_session_close(uint32_t session) {

@@ -2,35 +2,44 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "soapfilm.h"
+#include "abi/tables.h"
 
-/// A list of arrays of any element type; each is moved in and lives as long as the result.
+/// The arrays of one of the tables, by name; each is moved in and lives as long as the result.
 struct SfResult {
   struct Array {
-    void* owner;
-    void (*destroy)(void* owner);
-    const void* data;
-    size_t length;
+    void* owner = nullptr;
+    void (*destroy)(void* owner) = nullptr;
+    const void* data = nullptr;
+    size_t length = 0;
   };
   std::vector<Array> arrays;
 
-  SfResult() = default;
+  /// With `count` arrays, all of them empty.
+  explicit SfResult(size_t count) : arrays(count) {}
   SfResult(const SfResult&) = delete;
   SfResult& operator=(const SfResult&) = delete;
   ~SfResult() {
-    for (const Array& array : arrays) array.destroy(array.owner);
+    for (const Array& array : arrays)
+      if (array.destroy) array.destroy(array.owner);
   }
 
-  /// Appends an array; its index is the number of arrays before.
-  ///   perElement  how many elements the host sees for each T, for arrays of small structs
-  template <class T>
-  void add(std::vector<T> values, size_t perElement = 1) {
-    using Owner = std::vector<T>;
+  /// Fills an array, once. Its elements are those of the table, or structs made of them.
+  template <auto name, class T, class Allocator>
+  void put(std::vector<T, Allocator> values) {
+    using Element = typename sf::ElementOf<name>::Type;
+    static_assert(std::is_same_v<T, Element> ||
+                      (std::is_trivially_copyable_v<T> && !std::is_arithmetic_v<T> &&
+                       alignof(T) == alignof(Element) && sizeof(T) % sizeof(Element) == 0),
+                  "not what the table says");
+    using Owner = std::vector<T, Allocator>;
     const auto destroy = [](void* owner) { delete static_cast<Owner*>(owner); };
     auto* owner = new Owner(std::move(values));
-    arrays.push_back({owner, destroy, owner->data(), owner->size() * perElement});
+    // The numbers in an element are as large as it is aligned.
+    const size_t numbers = sizeof(T) / alignof(Element);
+    arrays[size_t(name)] = {owner, destroy, owner->data(), owner->size() * numbers};
   }
 };

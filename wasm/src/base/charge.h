@@ -28,7 +28,7 @@ class Charge {
 template <class T>
 bool reserve(std::vector<T>& list, size_t size, Charge& charge) {
   if (size <= list.capacity()) return true;
-  if (!charge.add((size - list.capacity()) * sizeof(T))) return false;
+  if (!charge.add(uint64_t(size - list.capacity()) * sizeof(T))) return false;
   list.reserve(size);
   return true;
 }

@@ -84,7 +84,7 @@ bool sortForInsertion(ArrayView<const Vec3> points, Work& work, std::vector<uint
       return place != o.place ? place < o.place : number < o.number;
     }
   };
-  size_t bytes = order.size() * sizeof(Key);
+  const uint64_t bytes = uint64_t(order.size()) * sizeof(Key);
   if (!work.charge(bytes) || !work.tick(uint32_t(std::min<size_t>(order.size() * 150, 1u << 30)))) {
     work.release(bytes);
     return false;

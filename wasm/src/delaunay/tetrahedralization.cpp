@@ -16,10 +16,10 @@ Tetrahedralization::~Tetrahedralization() { work_.release(charged_); }
 template <class T>
 bool Tetrahedralization::reserve(std::vector<T>& v, size_t size) {
   if (size <= v.capacity()) return true;
-  size_t before = v.capacity() * sizeof(T);
-  size_t wanted = std::max(size, v.capacity() + v.capacity() / 2);
-  charged_ += wanted * sizeof(T);
-  if (!work_.charge(wanted * sizeof(T))) return false;
+  const uint64_t before = uint64_t(v.capacity()) * sizeof(T);
+  const size_t wanted = std::max(size, v.capacity() + v.capacity() / 2);
+  charged_ += uint64_t(wanted) * sizeof(T);
+  if (!work_.charge(uint64_t(wanted) * sizeof(T))) return false;
   v.reserve(wanted);
   work_.release(before), charged_ -= before;
   return true;

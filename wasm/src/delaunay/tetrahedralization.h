@@ -97,7 +97,7 @@ class Tetrahedralization {
   bool reserve(std::vector<T>& v, size_t size);
 
   Work& work_;
-  size_t charged_ = 0;
+  uint64_t charged_ = 0;
   int dimension_ = -1;
   std::vector<Vec3> points_;          // [n + 1]
   std::vector<uint32_t> rank_;        // [n + 1]

@@ -86,7 +86,7 @@ Outcome PolygonTriangulator::State::append(const PolygonView& polygon,
                                            Work& work, std::vector<uint32_t>& triangles,
                                            std::vector<FloodStep>* trace) {
   Charge charge(work);
-  const size_t n = (polygon.positions.size() + polygon.points.size()) / 2;
+  const uint64_t n = (uint64_t(polygon.positions.size()) + polygon.points.size()) / 2;
   Outcome outcome;
   if (!charge.add(n * (sizeof(Point2) + 10 * sizeof(uint32_t)))) {
     outcome.status = work.status();

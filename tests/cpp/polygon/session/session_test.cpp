@@ -167,6 +167,32 @@ TEST_CASE("session: a start says which ring or vertex is wrong") {
   CHECK(o.loop == 2);
 }
 
+TEST_CASE(
+    "session: numbers of no vertex are refused by every edit, those of the box's corners too") {
+  const Polygon polygon = polygonOf({{{0, 0}, {8, 0}, {8, 8}, {0, 8}}});
+  PolygonSession session;
+  Model model;
+  REQUIRE(startBoth(session, model, polygon, {{7, 7}}));
+  Work work;
+  const std::vector<uint32_t> triangles(session.triangles().begin(), session.triangles().end());
+  std::vector<uint32_t> numbers = {5, 6, 77, 1u << 31};
+  for (uint32_t i = 1; i <= 8; ++i) numbers.push_back(0u - i);  // kNone, and what comes before it
+  for (const uint32_t v : numbers) {
+    CAPTURE(v);
+    uint32_t inserted = 0;
+    CHECK(session.moveVertex(v, {1, 1}, work).status == Status::BadOption);
+    CHECK(session.deleteVertex(v, work).status == Status::BadOption);
+    CHECK(session.insertVertex(v, {1, 1}, work, inserted).status == Status::BadOption);
+    CHECK(!session.isVertex(v));
+    CHECK(session.certify());
+  }
+  uint32_t inserted = 0;
+  // Vertex 4 is an island, which no ring goes on from.
+  CHECK(session.insertVertex(4, {1, 1}, work, inserted).status == Status::BadOption);
+  CHECK(triangles == std::vector<uint32_t>(session.triangles().begin(), session.triangles().end()));
+  CHECK(faultOf(session, model) == "");
+}
+
 TEST_CASE("session: refusals name what is in the way") {
   const Polygon polygon = polygonOf({{{0, 0}, {8, 0}, {8, 8}, {0, 8}},
                                      {{2, 2}, {2, 4}, {4, 4}, {4, 2}},

@@ -75,7 +75,7 @@ class DomainTable {
   }
   bool growEntries() {
     const size_t more = entries_.capacity() < 64 ? 64 : entries_.capacity();
-    if (!charge(more * sizeof(Entry))) return false;
+    if (!charge(uint64_t(more) * sizeof(Entry))) return false;
     entries_.reserve(entries_.capacity() + more);
     return true;
   }
@@ -90,7 +90,7 @@ class DomainTable {
     }
     return true;
   }
-  bool charge(size_t bytes) {
+  bool charge(uint64_t bytes) {
     charged_ += bytes;
     return work_.charge(bytes);
   }

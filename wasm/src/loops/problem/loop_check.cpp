@@ -62,7 +62,8 @@ class EdgePairs {
     uint32_t n = loops_.vertexCount();
     size_t leaves = 1;
     while (leaves * kLeaf < n) leaves *= 2;
-    if (!charge_.add(n * sizeof(uint32_t) + 2 * leaves * sizeof(Box))) return false;
+    if (!charge_.add(uint64_t(n) * sizeof(uint32_t) + 2 * uint64_t(leaves) * sizeof(Box)))
+      return false;
     order_.resize(n);
     for (uint32_t i = 0; i < n; ++i) order_[i] = i;
     leaves_ = leaves;
@@ -186,7 +187,8 @@ Outcome checkLoops(const LoopSet& loops, bool intersections, Work& work) {
     outcome.status = work.status();
     return outcome;
   };
-  if (!charge.add(loops.vertexCount() * (sizeof(Vec3) + sizeof(uint32_t)))) return ended();
+  if (!charge.add(uint64_t(loops.vertexCount()) * (sizeof(Vec3) + sizeof(uint32_t))))
+    return ended();
   scaleToUnit(loops.positions(), positions);
   if (!findEqualPoints(positions, work, firstOf)) return ended();
   uint32_t u = 0, v = 0;

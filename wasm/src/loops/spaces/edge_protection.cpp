@@ -67,7 +67,7 @@ bool Protection::start() {
   uint32_t n = loops_.vertexCount();
   constexpr size_t kBytesPerVertex =
       sizeof(Vec3) + 3 * sizeof(uint32_t) + sizeof(double) + 1 + sizeof(Encroacher);
-  if (!charge_.add(n * kBytesPerVertex)) return false;
+  if (!charge_.add(uint64_t(n) * kBytesPerVertex)) return false;
   exponent_ = scaleToUnit(loops_.positions(), p_);
   next_.resize(n), previous_.resize(n), edge_.resize(n);
   t_.assign(n, 0);

@@ -24,7 +24,7 @@ bool Flood::run(const LinkedPolygon& loops, const Visibility& seen, Work& work, 
   }
   Charge charge(work);
   const uint64_t perNode = sizeof(Node) + 2 * sizeof(void*);
-  if (!charge.add(most * perNode + bridges * 2 * sizeof(Chain)) ||
+  if (!charge.add(most * perNode + uint64_t(bridges) * 2 * sizeof(Chain)) ||
       !kept.add(most * (paired ? 7 : 3) * sizeof(uint32_t)))
     return false;
   // They only grow: what is there needs no clearing.

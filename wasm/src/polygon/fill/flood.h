@@ -19,9 +19,6 @@
 
 namespace sf {
 
-/// The transitions of the automaton; sec. 4. `Start` begins with a bottom that waits.
-enum class FloodAction : uint32_t { Start, Raise, Fill, Bridge, Spill, Jump };
-
 class Flood {
  public:
   Flood() = default;

@@ -18,6 +18,10 @@ struct PolygonOptions {
                                  // the triangles may be others than without
 };
 
+/// The transitions of flooding's automaton; Ronfard, Rossignac 1994, sec. 4. `Start` begins with a bottom
+/// that waits.
+enum class FloodAction : uint32_t { Start, Raise, Fill, Bridge, Spill, Jump };
+
 /// One action of flooding, for teaching; see polygon/fill/flood.h.
 struct FloodStep {
   uint32_t action;       // FloodAction

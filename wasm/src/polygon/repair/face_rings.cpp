@@ -20,7 +20,7 @@ class FaceTracer {
         result_(result) {}
 
   bool run() {
-    const size_t m = at_.size(), e = edges_.size();
+    const uint64_t m = at_.size(), e = edges_.size();
     if (!charge_.add(e * (sizeof(Arc) + sizeof(WeightedEdge) + 6 * sizeof(uint32_t)) +
                      m * 3 * sizeof(uint32_t)))
       return false;
@@ -150,7 +150,7 @@ void FaceTracer::cutRing(std::vector<uint32_t>& walk, size_t first) {
 /// point, or belongs to the same polygon as the hole that does.
 bool FaceTracer::nest() {
   const uint32_t rings = uint32_t(ringStarts_.size()) - 1;
-  if (!charge_.add(rings * 4 * sizeof(uint32_t))) return false;
+  if (!charge_.add(uint64_t(rings) * 4 * sizeof(uint32_t))) return false;
   std::vector<uint32_t> outerOf(rings, kNone), lowest(rings, kNone);
   bool hasHoles = false;
   for (uint32_t r = 0; r < rings; ++r) {

@@ -146,7 +146,7 @@ bool Repairer::splitAtCuts() {
   Charge charge(work_);
   if (!reserve(raw_, m + crossings, charge_) ||
       !reserve(rawEdges_, edges_.size() + cuts, charge_) ||
-      !charge.add((edges_.size() + 1 + cuts) * sizeof(uint32_t)))
+      !charge.add((uint64_t(edges_.size()) + 1 + cuts) * sizeof(uint32_t)))
     return false;
   raw_.clear(), rawEdges_.clear();
   for (uint32_t v = 0; v < m; ++v) raw_.push_back({at_[v], origin_[v]});
@@ -264,7 +264,7 @@ void Repairer::mergeEdges() {
 /// Rings in the numbers of the input; added points that rings use, scaled back.
 bool Repairer::handBack() {
   const uint32_t n = vertexCount();
-  const size_t size = faces_.vertices.size();
+  const uint64_t size = faces_.vertices.size();
   Charge charge(work_);
   if (!charge.add(size * 2 * (2 * sizeof(uint32_t) + 2 * sizeof(double)) +
                   added_.size() * sizeof(uint32_t)))

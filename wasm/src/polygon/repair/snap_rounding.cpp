@@ -45,7 +45,7 @@ class Rounding {
 
   bool findHotCells() {
     const size_t m = at_.size(), k = found_.crossings.size();
-    if (!charge_.add((m + 4 * k) * sizeof(HotCell))) return false;
+    if (!charge_.add((m + 4 * uint64_t(k)) * sizeof(HotCell))) return false;
     cells_.clear();
     cells_.reserve(m + 4 * k);
     for (uint32_t v = 0; v < m; ++v)
@@ -87,7 +87,8 @@ class Rounding {
     const uint32_t c = uint32_t(cells_.size());
     leaves_ = 1;
     while (leaves_ * kLeaf < c) leaves_ *= 2;
-    if (!charge_.add(c * sizeof(uint32_t) + 2 * leaves_ * sizeof(Box))) return false;
+    if (!charge_.add(uint64_t(c) * sizeof(uint32_t) + 2 * uint64_t(leaves_) * sizeof(Box)))
+      return false;
     order_.resize(c);
     for (uint32_t i = 0; i < c; ++i) order_[i] = i;
     boxes_.assign(2 * leaves_, Box{});
@@ -169,7 +170,7 @@ class Rounding {
     std::sort(passed_.begin(), passed_.end(),
               [&](uint32_t i, uint32_t j) { return sum(i) < sum(j); });
     if (passed_.size() < 2) return true;
-    if (!charge_.add((passed_.size() - 1) * sizeof(SnappedPiece))) return false;
+    if (!charge_.add(uint64_t(passed_.size() - 1) * sizeof(SnappedPiece))) return false;
     for (size_t i = 0; i + 1 < passed_.size(); ++i)
       pieces_.push_back({e, passed_[i], passed_[i + 1]});
     return true;

@@ -45,10 +45,17 @@ bool PolygonSession::withinBox(Point2 p) const {
   return std::fabs(p.x) < side_ && std::fabs(p.y) < side_;
 }
 
-/// Whether an edit may begin: p is a position, and the memory in use is within the limit.
+/// Whether an edit of vertex v may begin: there is such a vertex, and the rest as below. kNone is a number
+/// like any other here: taken for "no vertex" it would let callers edit corners of the box.
+Outcome PolygonSession::admitVertex(uint32_t v, Point2 p, Work& work) const {
+  if (!isVertex(v)) return Outcome{Status::BadOption};
+  return admit(v + kShift, p, work);
+}
+
+/// Whether an edit may begin: p is a position, and the memory in use is within the limit. The
+/// culprit otherwise is v, a number of the mesh or kNone.
 Outcome PolygonSession::admit(uint32_t v, Point2 p, Work& work) const {
-  if (v != kNone && !isVertex(v)) return Outcome{Status::BadOption};
-  if (!isAccepted(p)) return about(Status::NotFinite, v == kNone ? kNone : v + kShift, kNone);
+  if (!isAccepted(p)) return about(Status::NotFinite, v, kNone);
   Charge charge(work);
   if (!charge.add(300 * uint64_t(mesh_.at.size()))) return Outcome{work.status()};
   return {};
@@ -120,7 +127,7 @@ void PolygonSession::restore() {
 }
 
 Outcome PolygonSession::insertVertex(uint32_t before, Point2 p, Work& work, uint32_t& v) {
-  Outcome outcome = admit(before, p, work);
+  Outcome outcome = admitVertex(before, p, work);
   if (!outcome.ok()) return outcome;
   const uint32_t a = before + kShift, b = mesh_.next[a];
   if (b == kNone) return Outcome{Status::BadOption};
@@ -185,7 +192,7 @@ Outcome PolygonSession::insertIsland(Point2 p, Work& work, uint32_t& v) {
 }
 
 Outcome PolygonSession::deleteVertex(uint32_t vertex, Work& work) {
-  Outcome outcome = admit(vertex, {0, 0}, work);
+  Outcome outcome = admitVertex(vertex, {0, 0}, work);
   if (!outcome.ok()) return outcome;
   const uint32_t v = vertex + kShift, a = mesh_.prev[v], b = mesh_.next[v];
   const bool island = ring_[v] == kIsland;
@@ -211,7 +218,7 @@ Outcome PolygonSession::deleteVertex(uint32_t vertex, Work& work) {
 }
 
 Outcome PolygonSession::moveVertex(uint32_t vertex, Point2 p, Work& work) {
-  Outcome outcome = admit(vertex, p, work);
+  Outcome outcome = admitVertex(vertex, p, work);
   if (!outcome.ok()) return outcome;
   const uint32_t v = vertex + kShift, a = mesh_.prev[v], b = mesh_.next[v];
   const Point2 old = mesh_.at[v];

@@ -95,6 +95,7 @@ class PolygonSession {
   void giveUp(uint32_t v);
   Outcome refusal(uint32_t edited, const Obstacle& obstacle) const;
   Outcome about(Status status, uint32_t v, uint32_t w) const;
+  Outcome admitVertex(uint32_t v, Point2 p, Work& work) const;
   Outcome admit(uint32_t v, Point2 p, Work& work) const;
 
   bool settleInside(uint32_t& culprit);

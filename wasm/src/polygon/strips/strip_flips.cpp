@@ -133,7 +133,7 @@ bool StripFlips::tryFlip(uint32_t t) {
 }
 
 bool StripFlips::run(TriangleMesh& mesh, Work& work) {
-  const size_t count = mesh.twins.size() / 3;
+  const uint64_t count = mesh.twins.size() / 3;
   Charge charge(work);
   if (!charge.add(count * (sizeof(StripCosts) + 24))) return false;
   mesh_ = &mesh;

@@ -29,7 +29,7 @@ class EdgeOrder {
   /// Forgets all edges, and keeps the memory for `capacity` of them at once, over points of x from
   /// `least` to `greatest`.
   void reset(size_t capacity, double least, double greatest);
-  static size_t bytes(size_t capacity) { return capacity * (sizeof(CrossedEdge) + 8); }
+  static uint64_t bytes(uint64_t capacity) { return capacity * (sizeof(CrossedEdge) + 8); }
 
   CrossedEdge& operator[](uint32_t e) { return edges_[e]; }
   const CrossedEdge& operator[](uint32_t e) const { return edges_[e]; }

@@ -81,7 +81,7 @@ Outcome PlaneSweep::run(const PolygonView& polygon, bool complement, bool sagsOn
     outcome.status = work.status();
     return outcome;
   }
-  if (!charge.add(EdgeOrder::bytes(2 * size_t(n)))) outcome.status = work.status();
+  if (!charge.add(EdgeOrder::bytes(2 * uint64_t(n)))) outcome.status = work.status();
   if (outcome.ok()) s.sweep(work);
   if (!work.going()) {
     outcome.status = work.status();

@@ -1,0 +1,249 @@
+// Arguments of every kind in every place: what is wrong is an error that names it, and does no other harm.
+import {
+  formatObj,
+  load,
+  PolygonSession,
+  SoapfilmError,
+  spanLoops,
+  triangulateGeoJSON,
+  triangulatePolygon,
+  triangulatePolygons,
+  type LoopsLike,
+} from 'soapfilm';
+import { createWorker, type Film } from 'soapfilm/worker';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import {
+  fileSlots,
+  functionSlots,
+  kValues,
+  loadSlots,
+  sessionSlots,
+  type Functions,
+  type Kind,
+  type Slot,
+} from '../support/arguments.js';
+import { errorOf } from '../support/errors.js';
+
+const kSquare = [[0, 0], [10, 0], [10, 10], [0, 10]];
+const kSurface = { positions: new Float64Array(9), triangles: Uint32Array.of(0, 1, 2) };
+const kLoop = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 1]];
+
+let film: Film;
+/** Open throughout: whatever is called, it stays as it is. */
+let bystander: PolygonSession;
+let before: ReturnType<PolygonSession['read']>;
+
+beforeAll(async () => {
+  await load();
+  film = await createWorker();
+  bystander = new PolygonSession([kSquare, [[2, 2], [4, 2], [3, 4]]]);
+  before = bystander.read();
+});
+afterAll(() => {
+  film.dispose();
+});
+
+interface Disposable {
+  dispose?: () => void;
+}
+
+/** What comes of a call: its error, or nothing. */
+async function outcomeOf(call: () => unknown): Promise<unknown> {
+  try {
+    const result = (await call()) as Disposable | undefined;
+    result?.dispose?.();
+    return undefined;
+  } catch (error) {
+    return error;
+  }
+}
+
+/** Puts every kind of value in a place, and sees what comes of it. */
+async function tryAll({ call, valid, names, codes }: Slot): Promise<void> {
+  for (const kind of Object.keys(kValues) as Kind[]) {
+    const value: unknown = kValues[kind]();
+    const error = await outcomeOf(() => call(value));
+    if (valid.includes(kind)) {
+      expect(error, `${kind} is valid here`).toBeUndefined();
+    } else {
+      if (!(error instanceof SoapfilmError)) {
+        expect.fail(`${kind}: ${error instanceof Error ? error.stack : 'no error'}`);
+      }
+      expect(codes, `${kind}: ${error.message}`).toContain(error.code);
+      expect(error.message, kind).toMatch(names);
+    }
+    // Nothing is lost, and what comes next works.
+    expect(bystander.read(), kind).toEqual(before);
+    expect(bystander.move(0, [0, 0]).vertex, kind).toBe(0);
+  }
+  expect(spanLoops([kLoop]).found).toBe(true);
+  expect(triangulatePolygon([kSquare]).triangles.length).toBe(6);
+}
+
+const here: Functions = { spanLoops, triangulatePolygon, triangulatePolygons, triangulateGeoJSON };
+const there: Pick<Film, keyof Functions> = {
+  spanLoops: (loops, options) => film.spanLoops(loops, options),
+  triangulatePolygon: (polygon, options) => film.triangulatePolygon(polygon, options),
+  triangulatePolygons: (polygons, options) => film.triangulatePolygons(polygons, options),
+  triangulateGeoJSON: (geojson, options) => film.triangulateGeoJSON(geojson, options),
+};
+
+const titled = (slots: readonly Slot[]): [string, Slot][] => slots.map((slot) => [slot.title, slot]);
+
+describe('in this thread', () => {
+  test.each(titled(functionSlots(here)))('%s: every kind of value', (_, slot) => tryAll(slot));
+  test.each(titled(sessionSlots()))('%s: every kind of value', (_, slot) => tryAll(slot));
+  test.each(titled(fileSlots()))('%s: every kind of value', (_, slot) => tryAll(slot));
+});
+
+describe('in a worker', () => {
+  const slots = functionSlots(there, { signal: ['missing'] });
+  test.each(titled(slots))('%s: every kind of value', async (_, slot) => {
+    await tryAll(slot);
+    expect((await film.spanLoops([kLoop])).found).toBe(true);
+  });
+});
+
+describe('loading', () => {
+  test.each(titled(loadSlots()))('%s: every kind of value', (_, slot) => tryAll(slot));
+});
+
+test('numbers of vertices that there are not: are refused, with the one that stands for none', () => {
+  const session = new PolygonSession({ positions: Float64Array.from(kSquare.flat()), points: Float64Array.of(5, 5) });
+  const { next } = session.read();
+  expect(next[4]).toBe(0xffffffff);
+  for (const vertex of [next[4], 5, 0xfffffffc, 0xfffffffe]) {
+    for (const edit of [
+      () => session.move(vertex, [5, 6]),
+      () => session.delete(vertex),
+      () => session.insert(vertex, [5, 6]),
+    ]) {
+      const error = errorOf(edit);
+      expect(error.code).toBe('bad-option');
+      expect(error.message).toMatch(new RegExp(`^\`(vertex|before)\` .*\\b${vertex}\\b`));
+    }
+  }
+  expect(session.read().next).toEqual(next);
+  session.dispose();
+});
+
+test('a session that is disposed of: whatever is asked of it is disposed', () => {
+  const session = new PolygonSession([kSquare]);
+  session.dispose();
+  session.dispose();
+  for (const use of [
+    () => session.triangles,
+    () => session.read(),
+    () => session.insert(0, [5, 1]),
+    () => session.insertPoint([5, 5]),
+    () => session.delete(0),
+    () => session.move(0, [1, 1]),
+  ]) {
+    expect(errorOf(use).code).toBe('disposed');
+  }
+  expect(bystander.read()).toEqual(before);
+});
+
+const kSpanNames = [
+  'maxMemoryBytes', 'maxSeconds', 'weights', 'objective', 'candidates', 'boundaryNormals', 'bestSoFar', 'onBest',
+  'startFrom', 'onProgress',
+];
+const kPolygonNames = [
+  'maxMemoryBytes', 'maxSeconds', 'method', 'output', 'quality', 'verify', 'repair', 'trace', 'borrow',
+];
+const readers: [string, readonly string[], (options: object) => unknown][] = [
+  ['spanLoops', kSpanNames, (options) => spanLoops([kLoop], options)],
+  ['film.spanLoops', [...kSpanNames, 'signal'], (options) => film.spanLoops([kLoop], options)],
+  ['triangulatePolygon', kPolygonNames, (options) => triangulatePolygon([kSquare], options)],
+  ['film.triangulatePolygons', [...kPolygonNames, 'skipInvalid', 'signal'], (options) => film.triangulatePolygons([[kSquare]], options)],
+  ['load', ['parts', 'wasm', 'checks'], (options) => load(options)],
+  ['createWorker', ['parts', 'wasm', 'checks', 'size'], (options) => createWorker(options)],
+  ['formatObj', ['name', 'precision'], (options) => formatObj(kSurface, options)],
+];
+test.each(readers)('%s: an option that cannot be read is bad-option and named', async (_, names, call) => {
+  for (const option of names) {
+    const reason = new Error('unreadable');
+    const options = Object.defineProperty({}, option, {
+      enumerable: true,
+      get: () => {
+        throw reason;
+      },
+    });
+    const error = await outcomeOf(() => call(options));
+    expect(error).toBeInstanceOf(SoapfilmError);
+    expect(error).toMatchObject({ code: 'bad-option', cause: reason });
+    expect((error as SoapfilmError).message).toContain(`\`${option}\``);
+  }
+});
+
+test('points that cannot be read: an error with their list', () => {
+  const reason = new Error('unreadable');
+  const point = Object.defineProperty({ y: 1, z: 1 }, 'x', {
+    get: () => {
+      throw reason;
+    },
+  });
+  const loops = [kLoop, [...kLoop, point]] as unknown as LoopsLike;
+  expect(errorOf(() => spanLoops(loops))).toMatchObject({ code: 'bad-loops', loop: 1, cause: reason });
+});
+
+test('calls from within a listener: bad-option, whatever is called, and the work goes on', () => {
+  let refused = 0;
+  const ring = (n: number, z: number) =>
+    Array.from({ length: n }, (_, i) => [Math.cos((2 * Math.PI * i) / n), Math.sin((2 * Math.PI * i) / n), z]);
+  const span = spanLoops([ring(12, 0), ring(12, 1)], {
+    bestSoFar: true,
+    onBest: () => {
+      for (const call of [
+        () => spanLoops([kLoop]),
+        () => triangulatePolygon([kSquare]),
+        () => bystander.move(0, [1, 1]),
+        () => bystander.read(),
+        () => new PolygonSession([kSquare]),
+      ]) {
+        expect(errorOf(call).code).toBe('bad-option');
+        refused++;
+      }
+    },
+  });
+  expect(span.found).toBe(true);
+  expect(refused).toBeGreaterThan(0);
+  expect(bystander.read()).toEqual(before);
+});
+
+describe('GeoJSON that contains itself', () => {
+  interface Collection {
+    type: string;
+    geometries: unknown[];
+  }
+  const collection = (...geometries: unknown[]): Collection => ({ type: 'GeometryCollection', geometries });
+
+  test('at once, or by way of others: bad-polygon', async () => {
+    const self = collection();
+    self.geometries.push({ type: 'Polygon', coordinates: [kSquare] }, self);
+    const [a, b] = [collection(), collection()];
+    a.geometries.push(b);
+    b.geometries.push(collection(a));
+    const feature: { type: string; geometry?: unknown } = { type: 'Feature' };
+    feature.geometry = collection(feature);
+    for (const geojson of [self, a, feature, { type: 'FeatureCollection', features: [self] }]) {
+      for (const call of [() => triangulateGeoJSON(geojson), () => film.triangulateGeoJSON(geojson)]) {
+        const error = await outcomeOf(call);
+        expect(error).toMatchObject({ code: 'bad-polygon' });
+        expect((error as SoapfilmError).message).toMatch(/`geojson` contains itself/);
+      }
+    }
+  });
+
+  test('one geometry in many places: is triangulated in each', () => {
+    const polygon = collection({ type: 'Polygon', coordinates: [kSquare] });
+    const twice = collection(polygon, polygon, collection(polygon));
+    expect(triangulateGeoJSON(collection(twice, polygon)).triangles.length).toBe(4 * 6);
+  });
+
+  test('one in so many places that there is no end: too-large', () => {
+    let geojson = collection();
+    for (let i = 0; i < 60; i++) geojson = collection(geojson, geojson);
+    expect(errorOf(() => triangulateGeoJSON(geojson)).code).toBe('too-large');
+  });
+});

@@ -1,0 +1,187 @@
+// The numbers and names that cross the C ABI, each written once: the core's side is made from these tables
+// by the preprocessor (soapfilm.h), the runtime's by wasm/scripts/border.mjs (wasm/ts/border.ts).
+//
+// A table is a macro that expands X for each of its entries, in order:
+//   SF_STATUSES     X(name, value, what it says)
+//   ..._CHOICES     X(name, value, what the TypeScript API calls it)
+//   ..._SETTINGS    X(type, name, meaning): a struct that goes in
+//   ..._RECORD      X(type, name, meaning): a struct that comes out, of one type throughout
+//   ..._ARRAYS      X(type, name, meaning): the arrays of a result; a struct's fields lie one after the other
+#ifndef SOAPFILM_TABLES_H
+#define SOAPFILM_TABLES_H
+
+/* What a call ends with. Only the first two come with a result. */
+#define SF_STATUSES(X)                                                                       \
+  X(Ok, 0, "done")                                                                           \
+  X(NotFound, 1, "no triangulation in the candidate space: an answer, not an error")         \
+  X(NoLoops, 2, "zero loops")                                                                \
+  X(BadStarts, 3, "starts do not increase from 0 to n")                                      \
+  X(NotFinite, 4, "a coordinate is NaN or beyond 1e150")                                     \
+  X(TooFewVertices, 5, "a loop of fewer than 3 vertices")                                    \
+  X(RepeatedVertex, 6, "two vertices have the same position")                                \
+  X(LoopsIntersect, 7, "two loop edges cross, touch or overlap")                             \
+  X(BadNormals, 8, "a boundary normal is zero or partly NaN")                                \
+  X(BadWeights, 9, "a weight is negative, not finite, or all are zero")                      \
+  X(BadCandidates, 10, "a candidate index out of range, repeated, or a degenerate triangle") \
+  X(TooLarge, 11, "the predicted size exceeds the memory limit")                             \
+  X(OutOfMemory, 12, "the memory limit was reached at work")                                 \
+  X(Stopped, 13, "sf_host_progress asked to stop")                                           \
+  X(BadOption, 14, "a setting out of its range")                                             \
+  X(SelfIntersecting, 15, "polygons: two edges of one ring cross or overlap")                \
+  X(HoleOutside, 16, "polygons: a hole is not inside the outer ring, or crosses it")         \
+  X(HolesOverlap, 17, "polygons: two holes cross or have an edge in common")                 \
+  X(NestedHole, 18, "polygons: a hole lies inside another")                                  \
+  X(DegeneratePolygon, 19, "polygons: a ring of fewer than 3 distinct points, or with a spike")
+
+/* Where in the input a status is about. 0xFFFFFFFF where a field does not apply. */
+#define SF_PLACE_RECORD(X)                                                           \
+  X(uint32_t, loop, "loop or ring of the first culprit")                             \
+  X(uint32_t, vertex, "its vertex, counted in that loop; or the candidate triangle") \
+  X(uint32_t, otherLoop, "loop of the second culprit, for pairs")                    \
+  X(uint32_t, otherVertex, "its vertex, counted in that loop")
+
+/* sf_span_loops */
+
+#define SF_OBJECTIVE_CHOICES(X) \
+  X(Sum, 0, "sum")              \
+  X(WorstDihedral, 1, "worst-dihedral")
+
+#define SF_SPACE_CHOICES(X)  \
+  X(Auto, 0, "auto")         \
+  X(All, 1, "all")           \
+  X(Delaunay, 2, "delaunay") \
+  X(Near, 3, "near")         \
+  X(Given, 4, "given")
+
+#define SF_SPAN_SETTINGS(X)                                                           \
+  X(double, areaWeight, "per square unit; NaN: 1e-3 / squared bounding-box diagonal") \
+  X(double, perimeterWeight, "per unit of triangle perimeter")                        \
+  X(double, dihedralWeight, "per radian")                                             \
+  X(double, objective, "a choice of SF_OBJECTIVE_CHOICES")                            \
+  X(double, space, "a choice of SF_SPACE_CHOICES")                                    \
+  X(double, maxBytes, "memory limit")                                                 \
+  X(double, bestSoFar,                                                                \
+    "1 for the best surface so far where the work ends early, each of "               \
+    "which sf_host_result is told of; else 0")
+
+#define SF_SPAN_ARRAYS(X)                                                 \
+  X(double, positions, "[3n'] the input's, then the inserted vertices'")  \
+  X(uint32_t, triangles, "[3m]")                                          \
+  X(uint32_t, order, "[m] triangles in the order of splitting")           \
+  X(uint32_t, starts, "[k+1] in loopVertices")                            \
+  X(uint32_t, loopVertices, "[n'] the loops of the result")               \
+  X(SfSpanNumbers, numbers, "[1]")                                        \
+  X(SfInsertedPlace, insertedPlaces, "[i] where each inserted vertex is") \
+  X(double, insertedParameters, "[i] 0 to 1, where along its edge that is")
+
+#define SF_SPAN_NUMBERS_RECORD(X)                                             \
+  X(double, found, "1 if there is a surface, else 0")                         \
+  X(double, space, "the choice of SF_SPACE_CHOICES that the answer is from")  \
+  X(double, cost, "the objective's value")                                    \
+  X(double, lowerBound, "proven lower bound on the cost in that space")       \
+  X(double, optimal, "1 if the surface is proven to be the best, else 0")     \
+  X(double, area, "sum over triangles")                                       \
+  X(double, perimeter, "sum over triangles")                                  \
+  X(double, dihedral, "sum of the angles between triangles, in radians")      \
+  X(double, worstDihedral, "the largest of those angles")                     \
+  X(double, own, "sum of the candidates' own weights")                        \
+  X(double, candidates, "candidate triangles")                                \
+  X(double, domains, "domains solved or bounded; segments for a single loop") \
+  X(double, minimalSets, "minimal weak edge sets stored")                     \
+  X(double, peakBytes, "most memory held at once")
+
+#define SF_INSERTED_PLACE_RECORD(X) \
+  X(uint32_t, loop, "input loop")   \
+  X(uint32_t, edge, "of its edges, the one from this vertex of it")
+
+/* sf_triangulate_polygons */
+
+#define SF_METHOD_CHOICES(X) \
+  X(Flooding, 0, "flooding") \
+  X(Trapezoids, 1, "trapezoids")
+
+#define SF_REPAIR_CHOICES(X) \
+  X(None, 0, "none")         \
+  X(EvenOdd, 1, "even-odd")  \
+  X(NonZero, 2, "nonzero")
+
+#define SF_POLYGON_SETTINGS(X)                              \
+  X(double, dimension, "2 or 3")                            \
+  X(double, method, "a choice of SF_METHOD_CHOICES")        \
+  X(double, repair, "a choice of SF_REPAIR_CHOICES")        \
+  X(double, delaunay, "1 for Delaunay triangles, else 0")   \
+  X(double, strips, "1 for strips as well, else 0")         \
+  X(double, verify, "1 for a certificate, else 0")          \
+  X(double, trace, "1 for the actions of flooding, else 0") \
+  X(double, maxBytes, "memory limit")
+
+#define SF_POLYGON_ARRAYS(X)                                                              \
+  X(uint32_t, triangles, "[3m] counter-clockwise; in space, as the outer ring runs")      \
+  X(uint32_t, triangleStarts, "[p+1] in triangles, where each polygon's begin")           \
+  X(uint32_t, strips, "vertices of strips")                                               \
+  X(uint32_t, stripStarts, "[s+1] in those, where each strip begins")                     \
+  X(uint32_t, polygonStrips, "[p+1] in strips, where each polygon's begin")               \
+  X(double, added, "[dimension * a] points that repair added, numbered after all others") \
+  X(uint32_t, addedOn, "[2a] the edges that each is on, by their first vertices")         \
+  X(SfFloodStep, trace, "[t] actions of flooding")                                        \
+  X(SfPolygonFault, faults, "[f] the invalid polygons, in order")                         \
+  X(double, faultPoints, "[dimension * f] where each fault is, or NaN")
+
+#define SF_FLOOD_ACTION_CHOICES(X) \
+  X(Start, 0, "start")             \
+  X(Raise, 1, "raise")             \
+  X(Fill, 2, "fill")               \
+  X(Bridge, 3, "bridge")           \
+  X(Spill, 4, "spill")             \
+  X(Jump, 5, "jump")
+
+#define SF_FLOOD_STEP_RECORD(X)                                           \
+  X(uint32_t, action, "a choice of SF_FLOOD_ACTION_CHOICES")              \
+  X(uint32_t, left, "the vertex at one end of the active chain after it") \
+  X(uint32_t, right, "the vertex at the other end")                       \
+  X(uint32_t, triangles, "how many triangles there are after it")
+
+#define SF_POLYGON_FAULT_RECORD(X)                                         \
+  X(uint32_t, polygon, "its number")                                       \
+  X(uint32_t, status, "of SF_STATUSES")                                    \
+  X(uint32_t, loop, "a place as in SfPlace, rings counted in the polygon") \
+  X(uint32_t, vertex, "")                                                  \
+  X(uint32_t, otherLoop, "")                                               \
+  X(uint32_t, otherVertex, "")
+
+/* sf_session_*: sessions on polygons */
+
+#define SF_OPENED_ARRAYS(X)                        \
+  X(uint32_t, session, "[1] the session's number") \
+  X(uint32_t, triangles, "[3m]")
+
+#define SF_EDIT_ACTION_CHOICES(X)         \
+  X(InsertVertex, 0, "insert")            \
+  X(InsertIsolated, 1, "insert-isolated") \
+  X(Delete, 2, "delete")                  \
+  X(Move, 3, "move")
+
+/* All in one array: an edit takes less than to hand over many. */
+#define SF_EDIT_ARRAYS(X) \
+  X(uint32_t, edit,       \
+    "SfEditFacts; then [c] which triangles are new, rising; then [3c] their corners")
+
+#define SF_EDIT_FACTS_RECORD(X)                                                            \
+  X(uint32_t, vertex, "the edited vertex's number")                                        \
+  X(uint32_t, triangleCount, "how many triangles there are now")                           \
+  X(uint32_t, status, "of the edit itself")                                                \
+  X(uint32_t, loop, "a place as in SfPlace, but vertices by their numbers in the session") \
+  X(uint32_t, atVertex, "its vertex")                                                      \
+  X(uint32_t, otherLoop, "")                                                               \
+  X(uint32_t, otherVertex, "")
+
+#define SF_STATE_ARRAYS(X)                                                         \
+  X(double, positions, "[2n] by number; those of numbers out of use mean nothing") \
+  X(uint32_t, next,                                                                \
+    "[n] the next vertex of each one's ring, or 0xFFFFFFFF for isolated ones, "    \
+    "or the vertex itself for numbers out of use")                                 \
+  X(uint32_t, strips, "vertices of strips")                                        \
+  X(uint32_t, stripStarts, "[s+1] in those, where each strip begins")              \
+  X(uint32_t, certified, "[1] 1 if all of it has passed the certificate, from scratch, else 0")
+
+#endif

@@ -1,0 +1,59 @@
+// What the C ABI makes of the tables of soapfilm_tables.h.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "soapfilm.h"
+
+// NOLINTBEGIN(bugprone-macro-parentheses): macros that make declarations
+
+/// How many entries a table has.
+#define SF_COUNT_ONE(...) +1
+#define SF_COUNT(table) (0 table(SF_COUNT_ONE))
+
+/// Ties an enum of the core to its table: a value that only one of them has, or that they number
+/// differently, does not compile.
+#define SF_TIED(name, value, meaning)                 \
+  case Tied::name:                                    \
+    static_assert(int(Tied::name) == (value), #name); \
+    break;
+#define SF_TIE(check, Enum, table)                                                           \
+  _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic error \"-Wswitch\"") constexpr bool \
+  check(Enum choice) {                                                                       \
+    using Tied = Enum;                                                                       \
+    switch (choice) { table(SF_TIED) }                                                       \
+    return true;                                                                             \
+  }                                                                                          \
+  static_assert(check(Enum{}), #Enum);                                                       \
+  _Pragma("GCC diagnostic pop")
+
+// NOLINTEND(bugprone-macro-parentheses)
+
+namespace sf {
+
+/// The type that the table gives a result's array.
+template <auto array>
+struct ElementOf;
+
+#define SF_ELEMENT(prefix, element, name) \
+  template <>                             \
+  struct ElementOf<prefix##_##name> {     \
+    using Type = element;                 \
+  };
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfSpan, type, name)
+SF_SPAN_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfPolygon, type, name)
+SF_POLYGON_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfOpened, type, name)
+SF_OPENED_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfEdit, type, name)
+SF_EDIT_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfState, type, name)
+SF_STATE_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
+
+}  // namespace sf

@@ -1,0 +1,396 @@
+// Made by wasm/scripts/border.mjs from wasm/include/soapfilm_tables.h, which says more: do not edit.
+
+/** Hands over the array of that number of a result. */
+export interface ArrayReader {
+  (array: number, type: Float64ArrayConstructor): Float64Array;
+  (array: number, type: Uint32ArrayConstructor): Uint32Array;
+}
+
+/** What a call of the core ends with. */
+export const Status = {
+  /** done */
+  Ok: 0,
+  /** no triangulation in the candidate space: an answer, not an error */
+  NotFound: 1,
+  /** zero loops */
+  NoLoops: 2,
+  /** starts do not increase from 0 to n */
+  BadStarts: 3,
+  /** a coordinate is NaN or beyond 1e150 */
+  NotFinite: 4,
+  /** a loop of fewer than 3 vertices */
+  TooFewVertices: 5,
+  /** two vertices have the same position */
+  RepeatedVertex: 6,
+  /** two loop edges cross, touch or overlap */
+  LoopsIntersect: 7,
+  /** a boundary normal is zero or partly NaN */
+  BadNormals: 8,
+  /** a weight is negative, not finite, or all are zero */
+  BadWeights: 9,
+  /** a candidate index out of range, repeated, or a degenerate triangle */
+  BadCandidates: 10,
+  /** the predicted size exceeds the memory limit */
+  TooLarge: 11,
+  /** the memory limit was reached at work */
+  OutOfMemory: 12,
+  /** sf_host_progress asked to stop */
+  Stopped: 13,
+  /** a setting out of its range */
+  BadOption: 14,
+  /** polygons: two edges of one ring cross or overlap */
+  SelfIntersecting: 15,
+  /** polygons: a hole is not inside the outer ring, or crosses it */
+  HoleOutside: 16,
+  /** polygons: two holes cross or have an edge in common */
+  HolesOverlap: 17,
+  /** polygons: a hole lies inside another */
+  NestedHole: 18,
+  /** polygons: a ring of fewer than 3 distinct points, or with a spike */
+  DegeneratePolygon: 19,
+} as const;
+
+export interface Place {
+  /** loop or ring of the first culprit */
+  readonly loop: number;
+  /** its vertex, counted in that loop; or the candidate triangle */
+  readonly vertex: number;
+  /** loop of the second culprit, for pairs */
+  readonly otherLoop: number;
+  /** its vertex, counted in that loop */
+  readonly otherVertex: number;
+}
+
+/** How many numbers of an array make one. */
+export const kPlaceLength = 4;
+
+/** The one that begins at index `at`. */
+export const readPlace = (from: ArrayLike<number>, at = 0): Place => ({
+  loop: from[at],
+  vertex: from[at + 1],
+  otherLoop: from[at + 2],
+  otherVertex: from[at + 3],
+});
+
+export const kObjectiveChoices = ['sum', 'worst-dihedral'] as const;
+
+export const kSpaceChoices = ['auto', 'all', 'delaunay', 'near', 'given'] as const;
+
+export interface SpanSettings {
+  /** per square unit; NaN: 1e-3 / squared bounding-box diagonal */
+  readonly areaWeight: number;
+  /** per unit of triangle perimeter */
+  readonly perimeterWeight: number;
+  /** per radian */
+  readonly dihedralWeight: number;
+  /** a choice of SF_OBJECTIVE_CHOICES */
+  readonly objective: number;
+  /** a choice of SF_SPACE_CHOICES */
+  readonly space: number;
+  /** memory limit */
+  readonly maxBytes: number;
+  /** 1 for the best surface so far where the work ends early, each of which sf_host_result is told of; else 0 */
+  readonly bestSoFar: number;
+}
+
+export const packSpanSettings = (settings: SpanSettings): Float64Array =>
+  Float64Array.of(
+    settings.areaWeight,
+    settings.perimeterWeight,
+    settings.dihedralWeight,
+    settings.objective,
+    settings.space,
+    settings.maxBytes,
+    settings.bestSoFar,
+  );
+
+export interface SpanArrays {
+  /** [3n'] the input's, then the inserted vertices' */
+  readonly positions: Float64Array;
+  /** [3m] */
+  readonly triangles: Uint32Array;
+  /** [m] triangles in the order of splitting */
+  readonly order: Uint32Array;
+  /** [k+1] in loopVertices */
+  readonly starts: Uint32Array;
+  /** [n'] the loops of the result */
+  readonly loopVertices: Uint32Array;
+  /** SpanNumbers: [1] */
+  readonly numbers: Float64Array;
+  /** InsertedPlace: [i] where each inserted vertex is */
+  readonly insertedPlaces: Uint32Array;
+  /** [i] 0 to 1, where along its edge that is */
+  readonly insertedParameters: Float64Array;
+}
+
+export const readSpanArrays = (array: ArrayReader): SpanArrays => ({
+  positions: array(0, Float64Array),
+  triangles: array(1, Uint32Array),
+  order: array(2, Uint32Array),
+  starts: array(3, Uint32Array),
+  loopVertices: array(4, Uint32Array),
+  numbers: array(5, Float64Array),
+  insertedPlaces: array(6, Uint32Array),
+  insertedParameters: array(7, Float64Array),
+});
+
+export interface SpanNumbers {
+  /** 1 if there is a surface, else 0 */
+  readonly found: number;
+  /** the choice of SF_SPACE_CHOICES that the answer is from */
+  readonly space: number;
+  /** the objective's value */
+  readonly cost: number;
+  /** proven lower bound on the cost in that space */
+  readonly lowerBound: number;
+  /** 1 if the surface is proven to be the best, else 0 */
+  readonly optimal: number;
+  /** sum over triangles */
+  readonly area: number;
+  /** sum over triangles */
+  readonly perimeter: number;
+  /** sum of the angles between triangles, in radians */
+  readonly dihedral: number;
+  /** the largest of those angles */
+  readonly worstDihedral: number;
+  /** sum of the candidates' own weights */
+  readonly own: number;
+  /** candidate triangles */
+  readonly candidates: number;
+  /** domains solved or bounded; segments for a single loop */
+  readonly domains: number;
+  /** minimal weak edge sets stored */
+  readonly minimalSets: number;
+  /** most memory held at once */
+  readonly peakBytes: number;
+}
+
+/** How many numbers of an array make one. */
+export const kSpanNumbersLength = 14;
+
+/** The one that begins at index `at`. */
+export const readSpanNumbers = (from: ArrayLike<number>, at = 0): SpanNumbers => ({
+  found: from[at],
+  space: from[at + 1],
+  cost: from[at + 2],
+  lowerBound: from[at + 3],
+  optimal: from[at + 4],
+  area: from[at + 5],
+  perimeter: from[at + 6],
+  dihedral: from[at + 7],
+  worstDihedral: from[at + 8],
+  own: from[at + 9],
+  candidates: from[at + 10],
+  domains: from[at + 11],
+  minimalSets: from[at + 12],
+  peakBytes: from[at + 13],
+});
+
+export interface InsertedPlace {
+  /** input loop */
+  readonly loop: number;
+  /** of its edges, the one from this vertex of it */
+  readonly edge: number;
+}
+
+/** How many numbers of an array make one. */
+export const kInsertedPlaceLength = 2;
+
+/** The one that begins at index `at`. */
+export const readInsertedPlace = (from: ArrayLike<number>, at = 0): InsertedPlace => ({
+  loop: from[at],
+  edge: from[at + 1],
+});
+
+export const kMethodChoices = ['flooding', 'trapezoids'] as const;
+
+export const kRepairChoices = ['none', 'even-odd', 'nonzero'] as const;
+
+export interface PolygonSettings {
+  /** 2 or 3 */
+  readonly dimension: number;
+  /** a choice of SF_METHOD_CHOICES */
+  readonly method: number;
+  /** a choice of SF_REPAIR_CHOICES */
+  readonly repair: number;
+  /** 1 for Delaunay triangles, else 0 */
+  readonly delaunay: number;
+  /** 1 for strips as well, else 0 */
+  readonly strips: number;
+  /** 1 for a certificate, else 0 */
+  readonly verify: number;
+  /** 1 for the actions of flooding, else 0 */
+  readonly trace: number;
+  /** memory limit */
+  readonly maxBytes: number;
+}
+
+export const packPolygonSettings = (settings: PolygonSettings): Float64Array =>
+  Float64Array.of(
+    settings.dimension,
+    settings.method,
+    settings.repair,
+    settings.delaunay,
+    settings.strips,
+    settings.verify,
+    settings.trace,
+    settings.maxBytes,
+  );
+
+export interface PolygonArrays {
+  /** [3m] counter-clockwise; in space, as the outer ring runs */
+  readonly triangles: Uint32Array;
+  /** [p+1] in triangles, where each polygon's begin */
+  readonly triangleStarts: Uint32Array;
+  /** vertices of strips */
+  readonly strips: Uint32Array;
+  /** [s+1] in those, where each strip begins */
+  readonly stripStarts: Uint32Array;
+  /** [p+1] in strips, where each polygon's begin */
+  readonly polygonStrips: Uint32Array;
+  /** [dimension * a] points that repair added, numbered after all others */
+  readonly added: Float64Array;
+  /** [2a] the edges that each is on, by their first vertices */
+  readonly addedOn: Uint32Array;
+  /** FloodStep: [t] actions of flooding */
+  readonly trace: Uint32Array;
+  /** PolygonFault: [f] the invalid polygons, in order */
+  readonly faults: Uint32Array;
+  /** [dimension * f] where each fault is, or NaN */
+  readonly faultPoints: Float64Array;
+}
+
+export const readPolygonArrays = (array: ArrayReader): PolygonArrays => ({
+  triangles: array(0, Uint32Array),
+  triangleStarts: array(1, Uint32Array),
+  strips: array(2, Uint32Array),
+  stripStarts: array(3, Uint32Array),
+  polygonStrips: array(4, Uint32Array),
+  added: array(5, Float64Array),
+  addedOn: array(6, Uint32Array),
+  trace: array(7, Uint32Array),
+  faults: array(8, Uint32Array),
+  faultPoints: array(9, Float64Array),
+});
+
+export const kFloodActionChoices = ['start', 'raise', 'fill', 'bridge', 'spill', 'jump'] as const;
+
+export interface FloodStep {
+  /** a choice of SF_FLOOD_ACTION_CHOICES */
+  readonly action: number;
+  /** the vertex at one end of the active chain after it */
+  readonly left: number;
+  /** the vertex at the other end */
+  readonly right: number;
+  /** how many triangles there are after it */
+  readonly triangles: number;
+}
+
+/** How many numbers of an array make one. */
+export const kFloodStepLength = 4;
+
+/** The one that begins at index `at`. */
+export const readFloodStep = (from: ArrayLike<number>, at = 0): FloodStep => ({
+  action: from[at],
+  left: from[at + 1],
+  right: from[at + 2],
+  triangles: from[at + 3],
+});
+
+export interface PolygonFault {
+  /** its number */
+  readonly polygon: number;
+  /** of SF_STATUSES */
+  readonly status: number;
+  /** a place as in SfPlace, rings counted in the polygon */
+  readonly loop: number;
+  readonly vertex: number;
+  readonly otherLoop: number;
+  readonly otherVertex: number;
+}
+
+/** How many numbers of an array make one. */
+export const kPolygonFaultLength = 6;
+
+/** The one that begins at index `at`. */
+export const readPolygonFault = (from: ArrayLike<number>, at = 0): PolygonFault => ({
+  polygon: from[at],
+  status: from[at + 1],
+  loop: from[at + 2],
+  vertex: from[at + 3],
+  otherLoop: from[at + 4],
+  otherVertex: from[at + 5],
+});
+
+export interface OpenedArrays {
+  /** [1] the session's number */
+  readonly session: Uint32Array;
+  /** [3m] */
+  readonly triangles: Uint32Array;
+}
+
+export const readOpenedArrays = (array: ArrayReader): OpenedArrays => ({
+  session: array(0, Uint32Array),
+  triangles: array(1, Uint32Array),
+});
+
+export const kEditActionChoices = ['insert', 'insert-isolated', 'delete', 'move'] as const;
+
+export interface EditArrays {
+  /** SfEditFacts; then [c] which triangles are new, rising; then [3c] their corners */
+  readonly edit: Uint32Array;
+}
+
+export const readEditArrays = (array: ArrayReader): EditArrays => ({
+  edit: array(0, Uint32Array),
+});
+
+export interface EditFacts {
+  /** the edited vertex's number */
+  readonly vertex: number;
+  /** how many triangles there are now */
+  readonly triangleCount: number;
+  /** of the edit itself */
+  readonly status: number;
+  /** a place as in SfPlace, but vertices by their numbers in the session */
+  readonly loop: number;
+  /** its vertex */
+  readonly atVertex: number;
+  readonly otherLoop: number;
+  readonly otherVertex: number;
+}
+
+/** How many numbers of an array make one. */
+export const kEditFactsLength = 7;
+
+/** The one that begins at index `at`. */
+export const readEditFacts = (from: ArrayLike<number>, at = 0): EditFacts => ({
+  vertex: from[at],
+  triangleCount: from[at + 1],
+  status: from[at + 2],
+  loop: from[at + 3],
+  atVertex: from[at + 4],
+  otherLoop: from[at + 5],
+  otherVertex: from[at + 6],
+});
+
+export interface StateArrays {
+  /** [2n] by number; those of numbers out of use mean nothing */
+  readonly positions: Float64Array;
+  /** [n] the next vertex of each one's ring, or 0xFFFFFFFF for isolated ones, or the vertex itself for numbers out of use */
+  readonly next: Uint32Array;
+  /** vertices of strips */
+  readonly strips: Uint32Array;
+  /** [s+1] in those, where each strip begins */
+  readonly stripStarts: Uint32Array;
+  /** [1] 1 if all of it has passed the certificate, from scratch, else 0 */
+  readonly certified: Uint32Array;
+}
+
+export const readStateArrays = (array: ArrayReader): StateArrays => ({
+  positions: array(0, Float64Array),
+  next: array(1, Uint32Array),
+  strips: array(2, Uint32Array),
+  stripStarts: array(3, Uint32Array),
+  certified: array(4, Uint32Array),
+});

@@ -1,0 +1,144 @@
+// What stays in the core between calls: each in an instance of its own as far as there are enough, so that a
+// crash of one leaves the others alone; freed when it is disposed of, or forgotten.
+import type { ArrayReader } from './border.js';
+import { SoapfilmError } from './errors.js';
+import { callCore, Home, start, type CoreArgument, type Watch } from './runtime.js';
+import type { Part } from './types.js';
+
+/**
+ * How many instances of a part there are for sessions. One takes about 100 KiB, a millisecond to make, and
+ * 8 GiB or more of addresses, of which an engine has enough for a hundred or for some thousands.
+ */
+const kMostRooms = 32;
+
+/** An instance, and the sessions in it by their ids. */
+class Room extends Home {
+  readonly tenants = new Set<number>();
+  /** The session in whose call it has trapped. */
+  culprit?: number;
+}
+
+const roomsOf: Readonly<Record<Part, Set<Room>>> = { loops: new Set(), polygons: new Set() };
+
+/** The room of a new session: a new one, or where there are enough the one with the fewest in it. */
+function roomFor(part: Part): Room {
+  const rooms = roomsOf[part];
+  if (rooms.size < kMostRooms) {
+    const room = new Room(part);
+    try {
+      // The first need not do with another: whatever is wrong, its first call tells.
+      if (rooms.size > 0) start(room);
+      rooms.add(room);
+      return room;
+    } catch (error) {
+      if (error instanceof SoapfilmError) throw error;
+    }
+  }
+  return [...rooms].reduce((a, b) => (b.tenants.size < a.tenants.size ? b : a));
+}
+
+const forgotten = new FinalizationRegistry<Session>((session) => {
+  try {
+    session.dispose();
+  } catch {
+    // A crash: those who are lost by it say so when they are used.
+  }
+});
+
+let count = 0;
+
+/** A session as the core knows it: a number in one instance. */
+export class Session {
+  /** By which errors name it: 1 for the first in this thread. */
+  readonly id = ++count;
+  readonly #room: Room;
+  readonly #close: string;
+  #number: number | undefined;
+
+  /** @param close the export that ends a session, given its number */
+  constructor(part: Part, close: string) {
+    this.#close = close;
+    this.#room = roomFor(part);
+    this.#room.tenants.add(this.id);
+  }
+
+  /**
+   * Begins it by a call of the core.
+   * @param owner has it freed when it is collected; not to be referred to by `read` or `numberOf`
+   * @throws SoapfilmError as `call`; the session is of no use then
+   */
+  open<T>(
+    owner: object,
+    name: string,
+    args: readonly CoreArgument[],
+    read: (array: ArrayReader) => T,
+    numberOf: (arrays: T) => number,
+    watch?: Watch<T>,
+  ): T {
+    try {
+      const arrays = this.call(name, args, read, watch);
+      this.#number = numberOf(arrays);
+      forgotten.register(owner, this, this);
+      return arrays;
+    } catch (error) {
+      this.#leave();
+      throw error;
+    }
+  }
+
+  /**
+   * Its number in the core.
+   * @throws SoapfilmError `disposed`; `crashed` if it is lost
+   */
+  get number(): number {
+    if (this.#number === undefined) {
+      throw new SoapfilmError('disposed', `Session ${this.id} is disposed of`);
+    }
+    const { lost, culprit } = this.#room;
+    if (!lost) return this.#number;
+    const whose = culprit === this.id ? 'it' : `session ${String(culprit)}, which shared its memory,`;
+    throw new SoapfilmError('crashed', `Session ${this.id} was lost when ${whose} crashed`);
+  }
+
+  /**
+   * The arrays of a call in the session's instance.
+   * @throws SoapfilmError as `callCore`; one that ends the instance names all sessions that are lost
+   */
+  call<T>(
+    name: string,
+    args: readonly CoreArgument[],
+    read: (array: ArrayReader) => T,
+    watch?: Watch<T>,
+  ): T {
+    try {
+      return callCore(this.#room, name, args, read, watch).arrays;
+    } catch (error) {
+      if (this.#room.lost && error instanceof SoapfilmError) throw this.#lose(error);
+      throw error;
+    }
+  }
+
+  /** Frees its memory in the core, once. */
+  dispose(): void {
+    if (this.#number === undefined) return;
+    const { lost, tenants } = this.#room;
+    // Memory of instances never shrinks: the last session takes its instance along.
+    if (!lost && tenants.size > 1) this.call(this.#close, [this.#number], () => undefined);
+    this.#number = undefined;
+    forgotten.unregister(this);
+    this.#leave();
+  }
+
+  #leave(): void {
+    this.#room.tenants.delete(this.id);
+    if (this.#room.tenants.size === 0) roomsOf[this.#room.part].delete(this.#room);
+  }
+
+  #lose({ code, message, cause }: SoapfilmError): SoapfilmError {
+    roomsOf[this.#room.part].delete(this.#room);
+    this.#room.culprit ??= this.id;
+    const others = [...this.#room.tenants].filter((id) => id !== this.id);
+    const more = others.length > 0 ? `, and what shared its memory: session ${others.join(', ')}` : '';
+    return new SoapfilmError(code, `${message}; session ${this.id} is lost${more}`, undefined, { cause });
+  }
+}
