@@ -1,7 +1,7 @@
-// Fuzzes sf_span_loops through the C ABI: small, degenerate and malformed input of every kind.
+// Fuzzes sf_span_loops through the C ABI: small, degenerate and malformed input of every kind, and loops as hands
+// draw them.
 // Whatever comes back has to be a status or a surface with the right numbers of everything.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -9,13 +9,15 @@
 
 #include "fuzz/bytes.h"
 #include "soapfilm.h"
+#include "support/hand_loops.h"
 
 using namespace sffuzz;
 
 namespace {
 
-constexpr double kSecondsPerInput = 0.5;
-std::chrono::steady_clock::time_point inputBegan;
+/// Calls of the progress function, each after a million units of work, until an input ends.
+constexpr uint32_t kMostCalls = 60;
+uint32_t callsLeft;
 
 /// Mostly a small grid, where coincidences are common; now and then any double at all.
 double coordinate(Bytes& in) {
@@ -70,8 +72,9 @@ void checkSurface(const SfResult* result, uint32_t loopCount) {
 }  // namespace
 
 extern "C" int32_t sf_host_progress(double, double, double) {
-  std::chrono::duration<double> spent = std::chrono::steady_clock::now() - inputBegan;
-  return spent.count() < kSecondsPerInput;
+  if (callsLeft == 0) return 0;
+  --callsLeft;
+  return 1;
 }
 
 extern "C" void sf_host_result(const SfResult* result) {
@@ -80,9 +83,16 @@ extern "C" void sf_host_result(const SfResult* result) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Bytes in(data, size);
-  const uint32_t loopCount = in.below(6);
+  sftest::Curves drawn;
+  if (in.below(3) == 2) {
+    sftest::Random random(in.byte() | uint32_t(in.byte()) << 8);
+    const auto kind = sftest::Hand(in.below(int(sftest::Hand::Count)));
+    drawn = sftest::handLoops(kind, sftest::logUniform(3, 150, random), random);
+  }
+  const uint32_t loopCount = drawn.empty() ? in.below(6) : uint32_t(drawn.size());
   std::vector<uint32_t> starts{in.below(64) == 63 ? 1u : 0u};
-  for (uint32_t c = 0; c < loopCount; ++c) starts.push_back(starts.back() + in.below(10));
+  for (uint32_t c = 0; c < loopCount; ++c)
+    starts.push_back(starts.back() + (drawn.empty() ? in.below(10) : uint32_t(drawn[c].size())));
   const uint32_t n = *std::max_element(starts.begin(), starts.end());
   // `starts` may fall: an offset past the end would be the caller's lie about the array's length.
   if (in.below(32) == 31 && loopCount > 1) std::swap(starts[1], starts[loopCount]);
@@ -104,7 +114,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const bool hasTriangleWeights = in.below(2) == 0;
 
   std::vector<double> positions(3 * size_t(n)), normals, triangleWeights;
-  for (double& x : positions) x = coordinate(in);
+  if (drawn.empty())
+    for (double& x : positions) x = coordinate(in);
+  size_t next = 3 * size_t(starts[0]);
+  for (const sftest::Curve& curve : drawn)
+    for (const sftest::Vec3& p : curve)
+      for (const double x : {p.x, p.y, p.z})
+        if (next < positions.size()) positions[next++] = x;
   if (hasNormals)
     for (uint32_t i = 0; i < 3 * n; ++i) normals.push_back(in.below(5) ? coordinate(in) : NAN);
   std::vector<uint32_t> triangles(3 * size_t(triangleCount)), start(3 * size_t(in.below(9)));
@@ -112,7 +128,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   for (uint32_t& v : start) v = in.below(n + 3);
   for (uint32_t i = 0; i < triangleCount; ++i) triangleWeights.push_back(weight(in));
 
-  inputBegan = std::chrono::steady_clock::now();
+  callsLeft = in.below(kMostCalls);
   SfPlace where;
   SfResult* result = nullptr;
   const SfStatus status = sf_span_loops(

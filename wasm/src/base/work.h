@@ -66,19 +66,42 @@ class Work {
     if (lowerBound > lower_) lower_ = lowerBound;
   }
 
+  /// Has the work end, as if stopped, after about so many units more. What is solved meanwhile must be of use
+  /// unfinished: endAllowance() lets the work go on.
+  void beginAllowance(uint64_t units) { allowed_ = spent_ + pending_ + units; }
+  /// Whether the allowance ended the work.
+  bool endAllowance() {
+    const bool isUsedUp = isPaused_;
+    if (isUsedUp) status_ = Status::Ok;
+    isPaused_ = false, allowed_ = ~uint64_t(0);
+    return isUsedUp;
+  }
+
   bool going() const { return status_ == Status::Ok; }
   Status status() const { return status_; }
   void fail(Status s) {
     if (status_ == Status::Ok) status_ = s;
   }
+  /// The lower bound of the part that is under way, times 2^costExponent.
+  double lowerBound() const { return std::ldexp(lower_, costExponent_); }
+  /// Units counted so far.
+  uint64_t spent() const { return spent_ + pending_; }
   uint64_t used() const { return used_; }
   uint64_t peak() const { return peak_; }
 
   /// Asks the progress function now.
   void report() {
+    spent_ += pending_;
     pending_ = 0;
+    if (spent_ >= allowed_ && status_ == Status::Ok) {
+      status_ = Status::Stopped;
+      isPaused_ = true;
+    }
     const double best = std::ldexp(best_, costExponent_), lower = std::ldexp(lower_, costExponent_);
-    if (progress_ && !progress_(user_, fraction_, best, lower)) fail(Status::Stopped);
+    if (progress_ && !progress_(user_, fraction_, best, lower)) {
+      fail(Status::Stopped);
+      isPaused_ = false;
+    }
   }
 
  private:
@@ -88,6 +111,8 @@ class Work {
   void* user_ = nullptr;
   uint64_t used_ = 0, peak_ = 0;  // 64 bits: sums are compared with the limit afterwards
   uint32_t pending_ = 0;
+  uint64_t spent_ = 0, allowed_ = ~uint64_t(0);  // units
+  bool isPaused_ = false;                        // ended by the allowance alone
   double fraction_ = 0, partStart_ = 0, partEnd_ = 1, phaseStart_ = 0, phaseEnd_ = 1;
   int costExponent_ = 0;
   double best_ = std::numeric_limits<double>::infinity(), lower_ = 0;

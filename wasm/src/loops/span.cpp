@@ -13,6 +13,7 @@
 #include "loops/problem/loop_check.h"
 #include "loops/solver.h"
 #include "loops/spaces/edge_protection.h"
+#include "loops/spaces/first_surface.h"
 #include "loops/spaces/near_space.h"
 
 namespace sf {
@@ -23,8 +24,15 @@ namespace {
 constexpr double kPatience = 3e8, kPatienceForTwo = 4e7;
 /// Vertices of one loop up to which `auto` takes the `near` space: about a second.
 constexpr uint32_t kAutoNear = 2000;
-/// Mean dihedral angle up to which a surface is smooth: not much is to be won beyond it.
-constexpr double kSmooth = 0.05;
+/// Mean dihedral angle up to which a surface is smooth, so that not much is to be won beyond it for the time
+/// that near triples of large loops take, and up to which it is flat, so that nothing is.
+constexpr double kSmooth = 0.05, kFlat = 1e-3;
+/// Vertices of one loop and of several beyond which near triples take so long.
+constexpr uint32_t kQuickNear = 1000, kQuickNearOfMany = 80;
+/// Units of work, some nanoseconds each, that `auto` gives to near triples of loops for which their time is not
+/// known beforehand, in proportion to what the facets took and at least; and to the facets, if nothing is found
+/// among them, where the best so far is wanted.
+constexpr uint64_t kNearShare = 2, kLeastNear = 200'000'000, kMostFacets = 300'000'000;
 /// Vertices of one loop up to which all triples are the quickest where no angles count.
 constexpr uint32_t kPlainPolygon = 1000;
 /// Nearest neighbours of the `near` space, before it is widened.
@@ -67,7 +75,13 @@ Outcome checkOptions(const LoopSet& loops, const SpanOptions& options) {
 class Spanning {
  public:
   Spanning(const LoopSet& loops, const SpanOptions& options, Work& work)
-      : input_(loops), options_(options), work_(work), best_(options.objective), seed_(unit_) {
+      : input_(loops),
+        options_(options),
+        work_(work),
+        best_(options.objective),
+        first_(unit_),
+        wantsUnproven_(options.bestSoFar),
+        seed_(unit_) {
     std::vector<Vec3> scaled;
     const int exponent = scaleToUnit(loops.positions(), scaled);
     unit_ = LoopSet(scaled, loops.starts());
@@ -85,6 +99,12 @@ class Spanning {
     const bool isFound = best_.get().found && !isEnded;
     if (isFound) {
       result = best_.get();
+      if (!work_.going()) {
+        // Wider spaces were not looked at, or not to the end: what is proven holds for all of them.
+        const double bound = work_.lowerBound();
+        result.optimal = false;
+        result.lowerBound = std::min(result.lowerBound, bound);
+      }
     } else {
       result.space = space_;
       result.candidates = candidates_;
@@ -112,29 +132,86 @@ class Spanning {
   }
 
   /// All triples while that is quick, else Delaunay facets; then near triples where the facets hold no
-  /// surface, or only a rough one and near ones are not too many.
+  /// surface, or one that can be bettered.
   Outcome runAuto() {
     const uint32_t k = unit_.loopCount();
     const double patience = k == 2 ? kPatienceForTwo : kPatience;
     const bool isQuick = predictedTimeOfAllTriples(unit_) <= patience || isPlainPolygon();
     if (isQuick && allTriplesFit()) return runAll();
     partShare_ = 0.5;
-    const bool isNearQuick =
-        hasNearOptimalTriples(unit_, work_) && (k > 1 || unit_.vertexCount() <= kAutoNear);
+    if (options_.bestSoFar && k > 1 && !offerFirst()) return {work_.status()};
+    // That facets hold no surface may take for ever to prove: the first one they give ends the allowance.
+    const uint64_t before = work_.spent();
+    if (best_.get().found) work_.beginAllowance(kMostFacets);
     Outcome outcome = runDelaunay();
-    if (outcome.status == Status::NotFound || (outcome.ok() && isNearQuick && !isSmooth()))
-      outcome = runNear();
+    if (work_.endAllowance()) outcome = {Status::NotFound};
+    const uint64_t spent = work_.spent() - before;
+    if (outcome.status == Status::NotFound || (outcome.ok() && isNearWorthwhile()))
+      outcome = runNearFor(std::max(kLeastNear, kNearShare * spent));
     return outcome.status == Status::NotFound && !best_.get().found && allTriplesFit() ? runAll()
                                                                                        : outcome;
   }
 
-  /// Whether the surface found bends so little that others cannot cost much less.
-  bool isSmooth() const {
+  /// Near triples after facets. For more than two loops, or many vertices, nobody knows how long their optimum
+  /// takes: a surface better than the facets' is then wanted without a proof, too.
+  Outcome runNearFor(uint64_t units) {
+    if (options_.bestSoFar || hasNearOptimalTriples(unit_, work_) || !best_.get().found)
+      return runNear();
+    wantsUnproven_ = true;
+    work_.beginAllowance(units);
+    const Outcome outcome = runNear();
+    wantsUnproven_ = false;
+    // What was found is there already.
+    return work_.endAllowance() ? Outcome() : outcome;
+  }
+
+  /// Whether near triples are likely to hold a surface that is enough better than the one found for their time.
+  bool isNearWorthwhile() const {
+    const uint32_t k = unit_.loopCount(), n = unit_.vertexCount();
+    if (k == 1 && n > kAutoNear) return false;
+    const bool isQuick = n <= (k == 1 ? kQuickNear : kQuickNearOfMany);
+    return meanBend() > (isQuick ? kFlat : kSmooth);
+  }
+
+  /// The cost of the best surface found as an angle: for each of its inner edges, or the largest.
+  double meanBend() const {
     const Span& found = best_.get();
-    if (options_.dihedralWeight == 0) return false;
-    if (options_.objective == Objective::WorstDihedral) return found.cost <= kSmooth;
+    if (options_.objective == Objective::WorstDihedral) return found.cost;
+    if (options_.dihedralWeight == 0) return kInfinity;
     const double innerEdges = 0.5 * double(found.triangles.size() - unit_.vertexCount());
-    return found.cost <= kSmooth * options_.dihedralWeight * innerEdges;
+    return found.cost / (options_.dihedralWeight * innerEdges);
+  }
+
+  /// A surface over the caller's loops, for spaces that are made around one. False when the work ended.
+  bool findFirst() {
+    if (unit_.loopCount() == 1 || !first_.isEmpty() || !hasFirstSurface(unit_)) return true;
+    std::vector<uint32_t> triangles;
+    if (!firstSurface(unit_, guidingWeights({}), work_, triangles)) return false;
+    first_ = LoopTriangles(unit_, triangles);
+    return true;
+  }
+
+  /// The first surface as an answer. False when the work ended.
+  bool offerFirst() {
+    beginSpace(Space::Near);
+    if (!findFirst()) return false;
+    if (first_.isEmpty()) return true;
+    const PosedProblem problem = asGiven();
+    std::vector<uint32_t> triples;
+    CandidateSet set;
+    const uint64_t before = work_.used();
+    const bool built =
+        facetTriples(unit_, first_.vertices(), work_, triples) &&
+        buildCandidateSet(unit_, triangleWeights(problem, {}), std::move(triples), work_, set);
+    work_.release(work_.used() - before);
+    if (!built) return false;
+    candidates_ = set.size();
+    SplitOrder order(set.size());
+    std::iota(order.begin(), order.end(), 0u);
+    if (!isSurface(unit_, set, order)) return true;
+    take(problem, set, {order, false, 0}, {});
+    if (options_.onBest) tell(last_);
+    return true;
   }
 
   /// The share of the work that the next space takes: half of what is left, while there are others.
@@ -175,6 +252,16 @@ class Spanning {
     weights.dihedral = weights_.dihedral;
     weights.normals = problem.normals;
     weights.own = own;
+    return weights;
+  }
+
+  /// Weights for surfaces to begin from: a small sum of angles goes with small ones.
+  TriangleWeights guidingWeights(ArrayView<const double> normals) const {
+    TriangleWeights weights;
+    weights.area = weights_.area;
+    weights.perimeter = weights_.perimeter;
+    weights.dihedral = options_.objective == Objective::WorstDihedral ? 1 : weights_.dihedral;
+    weights.normals = normals;
     return weights;
   }
 
@@ -277,12 +364,13 @@ class Spanning {
   /// then the optimum among them and those around it, until it gets no better.
   Outcome runNearOptimal(std::vector<uint32_t> list) {
     const PosedProblem problem = asGiven();
-    TriangleWeights weights = triangleWeights(problem, {});
-    // A small sum of angles goes with small ones.
-    if (options_.objective == Objective::WorstDihedral) weights.dihedral = 1;
+    const TriangleWeights weights = guidingWeights(problem.normals);
     const bool isDone = unit_.loopCount() == 1 || weights.dihedral == 0;
     std::vector<BridgeTrial> trials;
     double before = kInfinity;
+    // The facets' surface is one more candidate, and not where to look: it may be far from the best.
+    list.insert(list.end(), seed_.vertices().begin(), seed_.vertices().end());
+    seed_ = LoopTriangles(unit_);
     for (uint32_t round = 0;; ++round) {
       std::vector<uint32_t> triples;
       if (!nearOptimalTriples(seed_, weights, work_, trials, list) ||
@@ -310,13 +398,16 @@ class Spanning {
       if (outcome.status != Status::NotFound) return outcome;
       beginSpace(Space::Near);
     }
+    if (!findFirst()) return {work_.status()};
+    std::vector<uint32_t> list = cells.facets;
+    list.insert(list.end(), first_.vertices().begin(), first_.vertices().end());
     for (uint32_t reach = kFirstReach;; reach *= 2) {
       if (reach > kFirstReach) beginSpace(Space::Near);
-      const double predicted = predictedNearTriples(unit_, reach) + double(cells.facets.size() / 3);
+      const double predicted = predictedNearTriples(unit_, reach) + double(list.size() / 3);
       if (reach > kFirstReach && predicted > kMostNear) break;
       if (!work_.fits(bytesToSolve(predicted))) return {Status::TooLarge};
       std::vector<uint32_t> triples;
-      if (!nearTriples(unit_, cells.facets, reach, work_, triples)) return {work_.status()};
+      if (!nearTriples(unit_, list, reach, work_, triples)) return {work_.status()};
       const Outcome outcome = solve(asGiven(), std::move(triples), {});
       if (outcome.status != Status::NotFound) return outcome;
       if (reach >= kLastReach || reach >= unit_.vertexCount()) break;
@@ -332,32 +423,37 @@ class Spanning {
     CandidateSet set;
     Surface surface;
     Listener listener(*this, problem, set, own);
-    const LoopTriangles start = problem.fromResult(options_.start);
+    // The caller's surface, or one that this space was made around.
+    LoopTriangles start = problem.fromResult(options_.start);
+    if (start.isEmpty() && space_ == Space::Near && !first_.isEmpty())
+      start = problem.fromResult(first_.vertices());
     SolveOptions solving;
     solving.dihedralWeight = weights_.dihedral;
     solving.objective = options_.objective;
-    solving.anytime = options_.bestSoFar;
+    solving.anytime = wantsUnproven_;
     solving.start = &start;
-    solving.listener = options_.bestSoFar && options_.onBest ? &listener : nullptr;
+    solving.listener = options_.bestSoFar ? &listener : nullptr;
     const uint64_t before = work_.used();
     const bool done = buildCandidateSet(problem.loops, weights, std::move(triples), work_, set) &&
                       solveSurface(problem.loops, set, solving, work_, surface);
     work_.release(work_.used() - before);
     domains_ += surface.domains;
     minimalSets_ += surface.minimalSets;
-    if (!done && !(options_.bestSoFar && surface.found)) return {work_.status()};
+    if (!done && !(wantsUnproven_ && surface.found)) return {work_.status()};
     if (!surface.found) return {Status::NotFound};
     take(problem, set, {surface.order, surface.optimal, surface.lowerBound}, own);
     return {};
   }
 
-  /// Hands every better surface on to the caller.
+  /// Hears of every better surface, and hands it on to the caller.
   class Listener final : public SurfaceListener {
    public:
     Listener(Spanning& spanning, const PosedProblem& problem, const CandidateSet& set,
              const std::vector<double>& own)
         : spanning_(spanning), problem_(problem), set_(set), own_(own) {}
     void better(const SplitOrder& order, double lowerBound) override {
+      if (spanning_.space_ == Space::Delaunay) spanning_.work_.endAllowance();
+      if (!spanning_.options_.onBest) return;
       spanning_.tell(spanning_.answer(problem_, set_, {order, false, lowerBound}, own_));
     }
 
@@ -401,10 +497,12 @@ class Spanning {
   Space space_ = Space::All;  // that is being looked at
   uint64_t candidates_ = 0;   // of it
   uint64_t domains_ = 0, minimalSets_ = 0;
-  Span last_;                        // of the last space that held a surface
-  BestAnswer best_;                  // of all spaces
-  LoopTriangles seed_;               // last_ over unit_
-  double toldCost_ = kInfinity;      // of the best surface that the caller has been told of
+  Span last_;                    // of the last space that held a surface
+  BestAnswer best_;              // of all spaces
+  LoopTriangles first_;          // a surface over unit_ that was there before any search, or none
+  bool wantsUnproven_;           // whether surfaces are of use that are not known to be optimal
+  LoopTriangles seed_;           // last_ over unit_
+  double toldCost_ = kInfinity;  // of the best surface that the caller has been told of
   double done_ = 0, partShare_ = 1;  // of the work: what past spaces took, what the next may
 };
 

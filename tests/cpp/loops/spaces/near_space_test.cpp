@@ -208,12 +208,14 @@ TEST_CASE("near space: two loops without angles, apart or close, come near the o
   CHECK(good >= count * 95 / 100);
 }
 
-TEST_CASE("auto: facets where the loop is smooth, near triples where it is rough") {
+TEST_CASE("auto: facets where a large loop is smooth, near triples where it is rough or smaller") {
   Random random(69);
   MESSAGE("seed 69");
-  for (const double noise : {0.0, 0.02}) {
+  const std::pair<uint32_t, double> cases[] = {{1200, 0.0}, {1200, 0.02}, {450, 0.0}};
+  for (const auto& [n, noise] : cases) {
+    CAPTURE(n);
     CAPTURE(noise);
-    Curve curve = monkeySaddle(450);
+    Curve curve = monkeySaddle(n);
     for (Vec3& p : curve) p = p + random.inCube(noise);
     Problem problem;
     problem.curves = {curve};
@@ -221,7 +223,7 @@ TEST_CASE("auto: facets where the loop is smooth, near triples where it is rough
     const Answer chosen = solve(problem);
     REQUIRE(chosen.outcome.ok());
     REQUIRE(chosen.span.found);
-    CHECK(chosen.span.space == (noise == 0 ? Space::Delaunay : Space::Near));
+    CHECK(chosen.span.space == (n > 1000 && noise == 0 ? Space::Delaunay : Space::Near));
     problem.options.space = Space::Delaunay;
     const Answer facets = solve(problem);
     REQUIRE(facets.outcome.ok());

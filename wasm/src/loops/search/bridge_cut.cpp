@@ -36,6 +36,49 @@ std::vector<EdgeUse> edgeUses(const CandidateSet& set, const SplitOrder& order) 
   return uses;
 }
 
+bool isSurface(const LoopSet& loops, const CandidateSet& set, SplitOrder& triangles) {
+  // With so many triangles, and one fan at each vertex, the Euler number is that of a sphere with k holes: all
+  // surfaces that cannot be oriented, or have handles, have a smaller one.
+  const size_t count = size_t(loops.vertexCount()) + 2 * size_t(loops.loopCount()) - 4;
+  if (triangles.size() != count) return false;
+  const std::vector<EdgeUse> uses = edgeUses(set, triangles);
+  for (size_t i = 0; i < uses.size();) {
+    size_t end = i + 1;
+    while (end < uses.size() && uses[end].edge == uses[i].edge) ++end;
+    if (end - i != (set.isLoopEdge[uses[i].edge] ? 1u : 2u)) return false;
+    i = end;
+  }
+  std::vector<uint32_t> valence(loops.vertexCount(), 0);
+  for (const uint32_t t : triangles)
+    for (int i = 0; i < 3; ++i) ++valence[set.triangles[3 * size_t(t) + i]];
+  for (uint32_t v = 0; v < loops.vertexCount(); ++v) {
+    uint32_t edge = set.loopEdges[v];
+    if (edge == kNone) return false;
+    const auto first = std::lower_bound(uses.begin(), uses.end(), EdgeUse{edge, 0});
+    if (first == uses.end() || first->edge != edge) return false;
+    uint32_t fan = 0;
+    for (uint32_t t = first->triangle; t != kNone; t = mate(uses, {edge, t}), ++fan)
+      edge = set.edgeOpposite(t, otherEnd(set, edge, v));
+    if (fan != valence[v]) return false;
+  }
+  SplitOrder order{triangles[0]}, sorted(triangles);
+  sf::sort(sorted.begin(), sorted.end());
+  const auto placeOf = [&](uint32_t t) {
+    return size_t(std::lower_bound(sorted.begin(), sorted.end(), t) - sorted.begin());
+  };
+  std::vector<uint8_t> seen(count, 0);
+  seen[placeOf(triangles[0])] = 1;
+  for (size_t i = 0; i < order.size(); ++i)
+    for (int j = 0; j < 3; ++j) {
+      const uint32_t beyond = mate(uses, {set.triangleEdges[3 * size_t(order[i]) + j], order[i]});
+      if (beyond == kNone || seen[placeOf(beyond)]) continue;
+      seen[placeOf(beyond)] = 1;
+      order.push_back(beyond);
+    }
+  triangles = std::move(order);
+  return triangles.size() == count;
+}
+
 BridgeCut cutSurface(const CandidateSet& set, const std::vector<EdgeUse>& uses,
                      std::vector<uint32_t> bridges) {
   BridgeCut cut;

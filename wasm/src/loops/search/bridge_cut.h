@@ -31,6 +31,11 @@ struct EdgeUse {
 /// The edges of a surface's triangles, sorted. [3m]
 std::vector<EdgeUse> edgeUses(const CandidateSet& set, const SplitOrder& order);
 
+/// Whether triangles are a surface over the loops in the sense of Zou, Ju, Carr 2013, definition 3.2; puts them
+/// in the order of splitting, each but the first beside an earlier one. O(m log m).
+///   triangles  numbers in the set, no two alike
+bool isSurface(const LoopSet& loops, const CandidateSet& set, SplitOrder& triangles);
+
 /// Cuts a valid surface along `bridges` (increasing), which close no circle of loops.
 ///   uses  of the surface, see edgeUses
 BridgeCut cutSurface(const CandidateSet& set, const std::vector<EdgeUse>& uses,

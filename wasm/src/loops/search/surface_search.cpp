@@ -234,9 +234,29 @@ bool SurfaceSearch::solveCut(const BridgeCut& cut, uint64_t maxSplits) {
   return true;
 }
 
+bool SurfaceSearch::offerAsIs(const LoopTriangles& triangles) {
+  const CandidateSet& set = task_.set;
+  const ArrayView<const uint32_t> v = triangles.vertices();
+  SplitOrder order;
+  for (size_t i = 0; i < v.size(); i += 3) {
+    const uint32_t edge = set.edgeBetween(v[i], v[i + 1]);
+    if (edge == kNone) return false;
+    uint32_t slot = set.edgeSlots[edge];
+    while (slot < set.edgeSlots[edge + 1] && set.slotApex[slot] != v[i + 2]) ++slot;
+    if (slot == set.edgeSlots[edge + 1]) return false;
+    order.push_back(set.slotTriangle[slot]);
+  }
+  double cost;
+  std::vector<uint32_t> badEdges;
+  if (!isSurface(task_.loops, set, order) || !measureSurface(order, cost, badEdges)) return false;
+  best_.offer(std::move(order), cost);
+  return true;
+}
+
 bool SurfaceSearch::startFrom(const LoopTriangles& triangles) {
   SF_ASSERT(&triangles.loops() == &task_.loops);
   if (!task_.work.going()) return false;
+  if (offerAsIs(triangles)) return true;
   const CandidateSet& set = task_.set;
   std::vector<uint32_t> edges;
   const ArrayView<const uint32_t> v = triangles.vertices();

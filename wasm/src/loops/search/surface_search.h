@@ -62,8 +62,9 @@ class SurfaceSearch {
   /// For several loops. O(c log c) time, some 100 bytes a candidate.
   SurfaceSearch(const Task& task, Incumbent& best);
 
-  /// Begins from the bridges that are edges of these triangles: of an earlier answer to loops that
-  /// have been edited, say. What is no candidate any more does no harm.
+  /// Begins from these triangles if they are a surface of candidates, and else from the bridges that are
+  /// edges of theirs: of an earlier answer to loops that have been edited, say. What is no candidate any more
+  /// does no harm.
   ///   triangles  over the task's loops
   bool startFrom(const LoopTriangles& triangles);
 
@@ -82,6 +83,8 @@ class SurfaceSearch {
 
   double random();
   void keepNear();
+  /// Whether the triangles are a surface of candidates, which is then offered.
+  bool offerAsIs(const LoopTriangles& triangles);
   /// What the triangles cost together; false, with the edges at fault, if they are no surface.
   bool measureSurface(const SplitOrder& order, double& cost, std::vector<uint32_t>& badEdges) const;
   /// Edges that make the loops a tree, or `trees` trees, the earlier in the list the rather. Empty if
