@@ -4,6 +4,7 @@
 #include "base/predicates.h"
 #include "polygon/input/metric_points.h"
 #include "triangles/insertion_order.h"
+#include "triangles/locate.h"
 
 namespace sf {
 namespace {
@@ -19,7 +20,7 @@ uint32_t upperNode(const LinkedPolygon& linked, uint32_t edge) {
 
 constexpr size_t kFlipsForIslands = 16;
 // More steps than this from one island to the next: rather go along the line of sight.
-constexpr int kLongestWalk = 40;
+constexpr uint32_t kLongestWalk = 40;
 
 }  // namespace
 
@@ -120,26 +121,6 @@ TriangleMesh::Place TrapezoidTriangulator::followSight(uint32_t e, uint32_t p) c
   }
 }
 
-/// Where point p lies, by steps from the triangle of h towards it; not found if a boundary is in
-/// the way, or after many steps.
-TriangleMesh::Place TrapezoidTriangulator::walk(uint32_t h, uint32_t p) const {
-  for (int step = 0; step < kLongestWalk; ++step) {
-    bool inside = true;
-    TriangleMesh::Place place{h, false};
-    for (int k = 0; k < 3 && inside; ++k, h = nextInTriangle(h)) {
-      const int side = mesh_.orient(mesh_.from(h), mesh_.to(h), p);
-      if (side == 0) place = {h, true};
-      if (side >= 0) continue;
-      inside = false;
-      h = mesh_.twins[h];
-      if (h == kNone) return {};
-      break;
-    }
-    if (inside) return place;
-  }
-  return {};
-}
-
 bool TrapezoidTriangulator::insertIslands(const LinkedPolygon& linked, const Visibility& seen,
                                           Work& work) {
   islands_.clear(), edges_.clear();
@@ -150,10 +131,11 @@ bool TrapezoidTriangulator::insertIslands(const LinkedPolygon& linked, const Vis
   mesh_.findEdges();
   // Few flips are needed for each on average; a limit guards against inputs made to need many.
   uint32_t budget = uint32_t(kFlipsForIslands * islands_.size() + mesh_.corners.size());
+  Locator locator;
   uint32_t near = kNone;
   for (const uint32_t v : islands_) {
     TriangleMesh::Place place;
-    if (near != kNone) place = walk(mesh_.edgeFrom[near], v);
+    if (near != kNone) place = locator.walk(mesh_, mesh_.edgeFrom[near], mesh_.at[v], kLongestWalk);
     if (place.edge == kNone || (place.onEdge && mesh_.twins[place.edge] == kNone))
       place = followSight(mesh_.edgeFrom[linked.prev[seen.left[v]]], v);
     if (place.edge == kNone || (place.onEdge && mesh_.twins[place.edge] == kNone)) {

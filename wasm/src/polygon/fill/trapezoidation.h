@@ -79,7 +79,6 @@ class TrapezoidTriangulator {
   bool improve(const LinkedPolygon& linked, const Visibility& seen, bool delaunay, Work& work);
   bool insertIslands(const LinkedPolygon& linked, const Visibility& seen, Work& work);
   TriangleMesh::Place followSight(uint32_t e, uint32_t p) const;
-  TriangleMesh::Place walk(uint32_t h, uint32_t p) const;
 
   UniMonotonePolygons polygons_;
   UTree tree_;

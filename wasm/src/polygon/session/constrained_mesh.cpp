@@ -111,44 +111,9 @@ void ConstrainedMesh::flip(uint32_t h) {
   mesh.flip(h);
 }
 
-uint32_t ConstrainedMesh::random() {
-  random_ ^= random_ << 13, random_ ^= random_ >> 17, random_ ^= random_ << 5;
-  return random_;
-}
-
-TriangleMesh::Place ConstrainedMesh::locate(Point2 p, uint32_t near) {
-  const auto side = [&](uint32_t h) { return turn(at[mesh.from(h)], at[mesh.to(h)], p); };
-  const auto inside = [&](uint32_t h) {
-    TriangleMesh::Place place{h, false};
-    for (int k = 0; k < 3; ++k, h = nextInTriangle(h)) {
-      const double s = side(h);
-      if (s < 0) return TriangleMesh::Place{};
-      if (s == 0) place = {h, true};
-    }
-    return place;
-  };
-  // Walks may go round in circles where triangles are not Delaunay, but not if they choose at
-  // random.
-  uint32_t h = mesh.edgeFrom[near], entered = kNone;
-  for (uint32_t steps = 0; steps < 8 * mesh.triangleCount(); ++steps) {
-    if (random() & 0x10000) h = nextInTriangle(h);
-    uint32_t exit = kNone;
-    for (int k = 0; k < 3 && exit == kNone; ++k, h = nextInTriangle(h))
-      if (h != entered && side(h) < 0) exit = h;
-    if (exit == kNone) return inside(h);
-    h = entered = mesh.twins[exit];
-    if (h == kNone) return {};  // out of the box
-  }
-  for (uint32_t t = 0; t < mesh.triangleCount(); ++t) {
-    const TriangleMesh::Place place = mesh.inUse(t) ? inside(3 * t) : TriangleMesh::Place{};
-    if (place.edge != kNone) return place;
-  }
-  return {};
-}
-
 bool ConstrainedMesh::insertPoint(uint32_t v, uint32_t near, Obstacle& obstacle) {
   obstacle = {};
-  const TriangleMesh::Place place = locate(at[v], near);
+  const TriangleMesh::Place place = locator_.locate(mesh, mesh.edgeFrom[near], at[v]);
   SF_ASSERT(place.edge != kNone);
   for (uint32_t h = place.edge / 3 * 3, k = 0; k < 3; ++k)
     if (at[mesh.from(h + k)] == at[v]) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "polygon/strips/strips.h"
+#include "triangles/locate.h"
 #include "triangles/triangle_mesh.h"
 
 namespace sf {
@@ -70,9 +71,6 @@ class ConstrainedMesh {
     const uint32_t a = mesh.from(h), b = mesh.to(h);
     return next[a] == b || prev[a] == b;
   }
-  /// A half-edge of a triangle that p lies in, on its border at most; `onEdge` if on that
-  /// half-edge.
-  TriangleMesh::Place locate(Point2 p, uint32_t near);
   /// The half-edge after h around the vertex where both start, counter-clockwise.
   uint32_t around(uint32_t h) const { return mesh.twins[prevInTriangle(h)]; }
 
@@ -98,12 +96,12 @@ class ConstrainedMesh {
     return next[mesh.from(h)] == mesh.to(h) ? mesh.from(h) : mesh.to(h);
   }
   bool isConvex(uint32_t h) const;
-  uint32_t random();
 
   std::vector<Point2> metric_;
   int exponent_ = 0;
   std::vector<uint32_t> stamps_;
-  uint32_t stamp_ = 1, random_ = 2463534242u;
+  uint32_t stamp_ = 1;
+  Locator locator_;
   std::vector<uint32_t> pending_, old_, left_, right_, corners_;
   struct Side {
     uint32_t a, b, half;
