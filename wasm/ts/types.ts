@@ -62,7 +62,8 @@ export interface CandidateList {
  * nobody catches (`reportError`, or the console where there is no such function, as in Node).
  * @param fraction share of the work done, 0 to 1, never falling
  * @param bestCost cost of the best surface so far, `Infinity` while there is none
- * @param lowerBound proven lower bound on the optimal cost, 0 at first
+ * @param lowerBound proven lower bound on the optimal cost: 0 at first, less only where candidates have
+ *   negative weights; it starts anew with each space that `'auto'` tries
  */
 export type ProgressListener = (fraction: number, bestCost: number, lowerBound: number) => void;
 
@@ -78,15 +79,17 @@ export interface SpanOptions {
    *   vertices on loop edges. For loops of any size; on noisy ones the optimum costs up to 1.5 times
    *   that over all triples, or there is none.
    * - `'near'`: the facets for the loops as they are, and triples of near-optimal surfaces. The
-   *   optimum among them is usually within 1.02 times that over all triples, in a twentieth of the
-   *   time for a few hundred vertices. For one loop up to 4000 vertices or two up to 120 together;
-   *   beyond, triples of neighbouring vertices. Without angles in the cost one loop up to 1000
-   *   vertices takes `'all'`, which is as quick. `optimal` and `lowerBound` speak of the last such
-   *   set.
-   * - `'auto'` (default): all triples while that is predicted to be quick; else the Delaunay facets,
-   *   and if their surface is rough (more than 0.05 rad an edge on average) near triples, for one
-   *   loop up to 2000 vertices or two up to 120. The next wider space where one
-   *   holds no triangulation.
+   *   optimum among them usually costs at most 1.02 times that over all triples, and takes a twentieth of
+   *   the time. So for one loop up to 4000 vertices, or two up to 120 together; for others triples of
+   *   neighbouring vertices, and those of a surface that always exists. Without angles in the cost one
+   *   loop up to 1000 vertices takes `'all'`, which is as quick. `optimal` and `lowerBound` are about the
+   *   last such set.
+   * - `'auto'` (default): all triples where that is quick. Else the Delaunay facets, and then near triples
+   *   if they may give a better surface in reasonable time: always for small loops, for large ones where
+   *   the facets' surface is rough (more than 0.05 rad an edge on average), never for one loop of more
+   *   than 2000 vertices. The cheapest surface of all is the answer; `candidates` says which space it is
+   *   from. A better one from near triples of three loops or more may come without a proof,
+   *   `optimal: false`. Where all these hold no surface, all triples.
    */
   readonly candidates?: CandidateSpace | CandidateList;
   /**
@@ -104,9 +107,9 @@ export interface SpanOptions {
   readonly maxSeconds?: number;
   /**
    * Whether a limit, or the `signal` of a worker's call, ends the work with the best surface found
-   * until then: `optimal: false`, and `cost` and `lowerBound` tell how far from the optimum it can be
-   * at most. Surfaces are then looked for first, which takes some hundredths of a second; the error of
-   * the limit comes only if there is none yet. Default `false`.
+   * until then: `optimal: false`, and the optimum lies between `lowerBound` and `cost`. Surfaces are then
+   * looked for first, which takes some hundredths of a second. The error of the limit comes only if there
+   * is none yet. Default `false`.
    */
   readonly bestSoFar?: boolean;
   /**

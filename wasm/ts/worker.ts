@@ -97,19 +97,20 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
       const input = flattenLoops(loops, true);
       const { signal, ...given } = optionsOf<SpanOptions & CallOptions>(options, { ...kSpanOptions, signal: true });
       const { onProgress, onBest, ...rest } = spanOptionsOf(given, input, true);
-      // What is proven after the last surface was heard of holds for it as well.
-      let bound = 0;
+      // What is proven after the last surface was heard of holds for it as well, unless that is about another
+      // space, in which no surface is known that costs as little.
+      let [best, bound] = [Infinity, 0];
       const watch = {
         signal: signalOf(signal),
         onProgress:
           onProgress || rest.bestSoFar
             ? (fraction: number, cost: number, lowerBound: number) => {
-                bound = lowerBound;
+                bound = cost <= best * (1 + 1e-9) ? lowerBound : 0;
                 onProgress?.(fraction, cost, lowerBound);
               }
             : undefined,
         onBest: (value: unknown) => {
-          bound = 0;
+          [best, bound] = [(value as Span).cost, 0];
           onBest?.(value as Span);
         },
         keepsBest: rest.bestSoFar,

@@ -1,5 +1,28 @@
 // The least-cost surface in a candidate set: which passes, and which algorithm for which input.
 // Source: Zou, Ju, Carr 2013, sec. 3.
+//
+// Which path solves what:
+//
+//   candidates are ...                            solved by
+//   all triples of one loop                       solvePolygon (one_loop/polygon_solver), not from here
+//   any others                                    solveSurface, which is this file:
+//     one loop                                    its table of segments (one_loop/segment_table)
+//     several loops, least sum
+//       two loops, many edges between them        all domains (domains/exact_solver), bounded by
+//                                                 bounds/two_loop_bound
+//       two loops; three or four, few candidates  the same up to a number of splits: two loops by
+//                                                 bounds/two_loop_bound, others by bounds/relaxed_bound;
+//                                                 then as more loops
+//       more loops, or many candidates            in rounds: fans bound the cost (bounds/fan_bound), cuts
+//                                                 find surfaces (search/surface_search), and the domains
+//                                                 that both leave are solved (bounds/focused_bound)
+//     several loops, least largest angle          first that angle, then the sum below it:
+//       few candidates, or two loops              all domains for the angle
+//       else                                      cuts find surfaces, fans drop triangles that only worse
+//                                                 ones have (bounds/fan_filter), domains solve the rest
+//
+// Spaces of candidates are span.cpp's choice: Delaunay facets (spaces/edge_protection), near triples
+// (spaces/near_space, spaces/first_surface), all triples.
 #pragma once
 #include <cstdint>
 
