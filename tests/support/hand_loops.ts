@@ -43,8 +43,9 @@ const normalDeviate = (random: Random): number =>
 const places = (n: number, random: Random): number[] =>
   Array.from({ length: n }, (_, i) => (i + 0.3 * random.range(-1, 1)) / n);
 
+/** Normal in each coordinate, with `noise` as its deviation: strong noise has loops insert vertices. */
 const noisy = (loop: Loop, noise: number, random: Random): Loop =>
-  loop.map((p) => add(p, random.inCube(noise)));
+  loop.map((p) => p.map((x) => x + noise * normalDeviate(random)) as unknown as Point);
 
 const someNoise = (random: Random): number => (random.chance(0.2) ? 0 : random.range(0, 0.2));
 

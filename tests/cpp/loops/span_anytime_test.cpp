@@ -1,7 +1,10 @@
 // Spans that a limit ends: the best surface so far, valid, with a bound that holds.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "loops/span.h"
+#include "support/cases.h"
 #include "support/generators.h"
 #include "support/surface.h"
 
@@ -157,4 +160,53 @@ TEST_CASE("anytime: one loop over all triples falls back to the near ones' surfa
   options.bestSoFar = false;
   Work again(size_t(14) << 20, nullptr, nullptr);
   CHECK(spanLoops(loops, options, again, span).status == Status::TooLarge);
+}
+
+TEST_CASE("anytime: bounds are what weights prove, below zero only where weights are") {
+  Random random(322);
+  MESSAGE("seed 322");
+  for (const bool isNegative : {false, true}) {
+    CAPTURE(isNegative);
+    const Curves curves{noisyCircle(7, 0.1, random), circle(6, 0.8, {0, 0, 1})};
+    Problem problem;
+    problem.curves = curves;
+    problem.options.space = Space::Given;
+    problem.options.dihedralWeight = 1;
+    problem.triangles = randomTriples(curves, 1, random);
+    double least = 0;
+    for (size_t t = 0; t < problem.triangles.size() / 3; ++t) {
+      problem.triangleWeights.push_back(isNegative ? random.range(-3, 0) : random.range(0, 3));
+      least += std::min(0.0, problem.triangleWeights.back());
+    }
+    const LoopSet loops = loopSet(curves);
+    SpanOptions options = problem.view();
+    const Answer optimum = solve(problem);
+    REQUIRE(optimum.outcome.ok());
+    REQUIRE(optimum.span.found);
+    CHECK((optimum.span.cost < 0) == isNegative);
+    struct Bounds {
+      uint32_t left;
+      double least, most;
+    };
+    options.bestSoFar = true;
+    for (uint32_t ticks = 0; ticks < 12; ++ticks) {
+      Bounds bounds{ticks, 1.0 / 0.0, -1.0 / 0.0};
+      options.user = &bounds;
+      const auto watch = [](void* user, double, double best, double bound) {
+        Bounds& seen = *static_cast<Bounds*>(user);
+        CHECK(bound <= best);
+        seen.least = std::min(seen.least, bound), seen.most = std::max(seen.most, bound);
+        return seen.left-- > 0;
+      };
+      Work work(size_t(-1), watch, &bounds);
+      Span span;
+      const Outcome outcome = spanLoops(loops, options, work, span);
+      CHECK(bounds.most <= optimum.span.cost + 1e-9);
+      if (bounds.least < 1.0 / 0.0) CHECK(bounds.least >= least - 1e-9);
+      if (!outcome.ok()) continue;
+      CHECK(span.lowerBound >= least - 1e-9);
+      CHECK(span.lowerBound <= optimum.span.cost + 1e-9);
+      CHECK(span.cost >= optimum.span.cost - 1e-9);
+    }
+  }
 }

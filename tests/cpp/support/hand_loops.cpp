@@ -27,8 +27,12 @@ std::vector<double> places(uint32_t n, double jitter, Random& random) {
   return result;
 }
 
+/// Normal in each coordinate, with `noise` as its deviation: strong noise has loops insert vertices.
 void addNoise(Curve& curve, double noise, Random& random) {
-  for (Vec3& p : curve) p = p + random.inCube(noise);
+  for (Vec3& p : curve) {
+    const double x = noise * normalDeviate(random), y = noise * normalDeviate(random);
+    p = p + Vec3{x, y, noise * normalDeviate(random)};
+  }
 }
 
 void turnAll(Curves& curves, Random& random) {
