@@ -165,7 +165,7 @@ TEST_CASE("batch: polygons in space have planes of their own, and coordinates le
   }
 }
 
-TEST_CASE("batch: a polygon without rings is empty; a memory limit ends the whole") {
+TEST_CASE("batch: a polygon without rings is empty, and a memory limit ends the whole") {
   Polygons all;
   all.add(polygonOf({{{0, 0}, {4, 0}, {4, 4}, {0, 4}}}));
   all.polygonStarts.push_back(all.polygonStarts.back());
