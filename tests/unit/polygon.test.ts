@@ -397,7 +397,19 @@ describe('what is no polygon', () => {
   test('options that are none, and traces of what is not flooding: bad-option', () => {
     expect(errorOf(() => triangulatePolygon(kSquare, null as unknown as PolygonOptions)).code).toBe('bad-option');
     const trapezoids = { trace: true, method: 'trapezoids' } as const;
-    expect(errorOf(() => triangulatePolygon(kSquare, trapezoids)).code).toBe('bad-option');
+    expect(errorOf(() => triangulatePolygon(kSquare, trapezoids))).toMatchObject({
+      code: 'bad-option',
+      message: expect.stringContaining('`trace`') as string,
+    });
+    expect(errorOf(() => triangulatePolygons([kSquare, kSquare], { trace: true }))).toMatchObject({
+      code: 'bad-option',
+      message: expect.stringContaining('`trace`') as string,
+    });
+    const withPoint = { positions: Float64Array.of(0, 0, 2, 0, 0, 2), points: Float64Array.of(0.5, 0.5) };
+    expect(errorOf(() => triangulatePolygon(withPoint, { repair: 'even-odd' }))).toMatchObject({
+      code: 'bad-option',
+      message: expect.stringContaining('`repair`') as string,
+    });
   });
 });
 

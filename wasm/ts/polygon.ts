@@ -12,7 +12,7 @@ import { optionsOf } from './check.js';
 import type { SoapfilmError } from './errors.js';
 import { ringError } from './messages.js';
 import { kDefaultMemoryBytes, kPolygonOptions, kPolygonsOptions } from './options.js';
-import { flattenBatch, flattenPolygon, kChoices, polygonOptionsOf, type FlatPolygons } from './polygon_input.js';
+import { checkTogether, type FlatPolygons, flattenBatch, flattenPolygon, kChoices, polygonOptionsOf } from './polygon_input.js';
 import { callCore, shared } from './runtime.js';
 import type {
   FloodStep,
@@ -70,6 +70,7 @@ export function triangulate(
   options: PolygonsOptions,
   several: boolean,
 ): PolygonsTriangulation {
+  checkTogether(polygons, options);
   const { verify = false, trace = false, borrow, maxSeconds, skipInvalid } = options;
   const { positions, ringStarts, polygonStarts, points, dim } = polygons;
   const chosen = (name: keyof typeof kChoices): number =>

@@ -53,6 +53,18 @@ export function polygonOptionsOf(options: Given<PolygonsOptions>): PolygonsOptio
   return checked;
 }
 
+/**
+ * Options that do not go together.
+ * @throws SoapfilmError `bad-option`, naming them
+ */
+export function checkTogether({ polygonStarts, points }: FlatPolygons, options: PolygonsOptions): void {
+  const { trace = false, method, repair = 'none' } = options;
+  const bad = (text: string): SoapfilmError => new SoapfilmError('bad-option', text);
+  if (trace && method === 'trapezoids') throw bad("`trace` records flooding: it does not go with `method: 'trapezoids'`");
+  if (trace && polygonStarts.length !== 2) throw bad('`trace` is for one polygon');
+  if (points && points.length > 0 && repair !== 'none') throw bad('`repair` does not go with `polygon.points`');
+}
+
 const kCode: ErrorCode = 'bad-polygon';
 const kForms =
   'an array of rings of points, or { positions, starts } with a Float64Array or Float32Array, or ' +
