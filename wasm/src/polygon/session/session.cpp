@@ -76,8 +76,8 @@ void PolygonSession::giveUp(uint32_t v) {
   unused_.push_back(v);
 }
 
-/// Makes v a vertex at p, between a and b unless these are kNone. If that fails nothing of it is
-/// left.
+/// Makes v a vertex at p, between a and b unless these are kNone. If that fails,
+/// everything is as before.
 bool PolygonSession::place(uint32_t v, Point2 p, uint32_t a, uint32_t b, Obstacle& obstacle) {
   mesh_.setPosition(v, p);
   if (a != kNone) near_ = a;
