@@ -18,8 +18,8 @@ struct PolygonOptions {
                                  // y, so the triangles may differ from those without
 };
 
-/// The transitions of flooding's automaton; Ronfard, Rossignac 1994, sec. 4. `Start` begins with a bottom
-/// that waits.
+/// The transitions of flooding's automaton; Ronfard, Rossignac 1994, sec. 4. `Start` begins with a
+/// waiting bottom.
 enum class FloodAction : uint32_t { Start, Raise, Fill, Bridge, Spill, Jump };
 
 /// One action of flooding, for teaching; see polygon/fill/flood.h.

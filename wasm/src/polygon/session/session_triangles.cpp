@@ -125,7 +125,8 @@ void PolygonSession::orientRings() {
   }
 }
 
-/// Ends an edit: flips, finds what is inside, and hands the changes on; or returns why it is refused.
+/// Ends an edit: flips, finds what is inside, and hands the changes on; or returns why it is
+/// refused.
 Outcome PolygonSession::finish(uint32_t edited) {
   mesh_.legalizeChanged(kFlips);
   uint32_t culprit;
