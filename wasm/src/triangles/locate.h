@@ -16,8 +16,8 @@ class Locator {
   /// after `steps` steps. Expected O(sqrt m) steps among Delaunay triangles.
   ///   h  a half-edge of the triangle to begin with
   TriangleMesh::Place walk(const TriangleMesh& mesh, uint32_t h, Point2 p, uint32_t steps);
-  /// The same, but looks at every triangle after too many steps. Not found if a boundary is in the
-  /// way or no triangle holds p. O(m) at worst.
+  /// The same, but looks at every triangle if the walk does not find one. Not found if no triangle
+  /// holds p. O(m) at worst.
   TriangleMesh::Place locate(const TriangleMesh& mesh, uint32_t h, Point2 p);
 
  private:
