@@ -44,8 +44,8 @@ bool loopsMeet(const Curves& curves);
 enum class Shape { Random, Lattice, Planar, Spherical, Rings, CollinearRuns, Count };
 const char* nameOf(Shape shape);
 
-/// Loops of the given sizes with no two edges meeting. Lattice, Planar, Spherical and CollinearRuns
-/// have small dyadic coordinates, so that their degeneracies are exact.
+/// Loops of the given sizes, no two edges of which meet. Lattice, Planar, Spherical and
+/// CollinearRuns have small dyadic coordinates, so that their degeneracies are exact.
 Curves loopsOf(Shape shape, const std::vector<uint32_t>& sizes, Random& random);
 
 /// Weights by name: area, perimeter, dihedral, mixed, default, worst, worst mixed.
@@ -55,7 +55,8 @@ const char* setWeights(int which, const Curves& curves, sf::SpanOptions& options
 /// Normals of faces across about `share` of the loop edges.
 std::vector<double> randomNormals(const Curves& curves, double share, Random& random);
 
-/// Each triple that is not collinear with probability `keep`, in random order and winding.
+/// The triples that are not collinear, each kept with probability `keep`,
+/// in random order and winding.
 std::vector<uint32_t> randomTriples(const Curves& curves, double keep, Random& random);
 
 }  // namespace sftest

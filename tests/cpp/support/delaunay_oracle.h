@@ -20,7 +20,8 @@ inline std::vector<P> points(sf::ArrayView<const sf::Vec3> p, int shift) {
   return r;
 }
 
-/// Six times the volume of the convex hull, by adding one point after the other to a closed surface.
+/// Six times the volume of the convex hull, by adding one point after the other
+/// to a closed surface.
 inline I hullVolume6(const std::vector<P>& p) {
   size_t b = 1, c, d;
   auto equal = [](const P& u, const P& v) { return dot(u - v, u - v).sign() == 0; };
@@ -33,7 +34,7 @@ inline I hullVolume6(const std::vector<P>& p) {
   for (d = c + 1; d < p.size() && volume6(p[0], p[b], p[c], p[d]).sign() == 0;) ++d;
   if (d >= p.size()) return I(0);
   if (volume6(p[0], p[b], p[c], p[d]).sign() > 0) std::swap(b, c);
-  // Triangles turn left seen from outside, where volumes are positive.
+  // Triangles turn left as seen from outside; volumes are positive there.
   std::vector<std::array<size_t, 3>> hull = {{0, b, c}, {0, c, d}, {0, d, b}, {b, d, c}};
   for (size_t i = 0; i < p.size(); ++i) {
     std::vector<std::array<size_t, 3>> kept;

@@ -1,4 +1,4 @@
-// Domains to ask bounds about.
+// Domains to test bounds with.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -10,21 +10,21 @@
 
 namespace sftest {
 
-/// Goes down random splits from the root, the edge from `root` to the next vertex, many times, and calls
-/// `visit` for every canonical shape on the way, with the slot of each triangle at its access edge that can
-/// be its access triangle.
+/// Goes down random splits many times, from the root, the edge from `root` to the next vertex.
+/// Calls `visit` for every canonical shape on the way, with each slot at its access edge whose
+/// triangle can be its access triangle.
 void walkDomains(const sf::Pass& pass, uint32_t root, Random& random,
                  const std::function<void(sf::Shape shape, uint32_t slot)>& visit);
 
-/// A domain of a surface: what is inside costs that much, angles across its spanning edges included.
+/// A domain of a surface, and the cost of what fills it, angles across its spanning edges included.
 struct FilledDomain {
   std::vector<uint32_t> shape;  // canonical
   uint32_t accessSlot;          // of the surface's triangle outside
   double cost;
 };
 
-/// The domains that a surface over several loops splits into, but for the root and those without holes on
-/// one segment; empty if the triangles are no such surface. Costs are of sums.
+/// The domains that a surface over several loops splits into, except the root and those of one
+/// segment without holes; empty if the triangles are no such surface. Costs are sums.
 std::vector<FilledDomain> domainsOf(const sf::Pass& pass, uint32_t root,
                                     const std::vector<uint32_t>& triangles);
 

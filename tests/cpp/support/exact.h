@@ -98,9 +98,9 @@ Int<N> volume6(const Point<N>& a, const Point<N>& b, const Point<N>& c, const Po
   return dot(cross(b - a, c - a), d - a);
 }
 
-/// Positive if e is inside the sphere through the positively oriented a, b, c, d. With weights
-/// l_i such that e = sum l_i p_i, e is inside just if sum l_i |p_i - e|^2 > 0; they are the volumes
-/// of the tetrahedra with one corner replaced by e.
+/// Positive if e is inside the sphere through the positively oriented a, b, c, d. With weights l_i
+/// such that e = sum l_i p_i, e is inside if and only if sum l_i |p_i - e|^2 > 0. The weights are
+/// the volumes of the tetrahedra with one corner replaced by e.
 ///   lift  [5] added to the squared distances of a, b, c, d and e, or null
 template <int N>
 Int<N> inSphere(const Point<N>& a, const Point<N>& b, const Point<N>& c, const Point<N>& d,

@@ -1,5 +1,5 @@
-// Loops as hands draw them and scanners leave them: noisy, uneven, close to themselves and to each other.
-// The same families as in tests/support/hand_loops.ts.
+// Loops as hands draw them and scanners leave them: noisy, uneven, close to themselves and to each
+// other. The same families as in tests/support/hand_loops.ts.
 #pragma once
 #include "support/generators.h"
 
@@ -19,12 +19,13 @@ enum class Hand {
 };
 const char* nameOf(Hand kind);
 
-/// A closed stroke of n points: radius 1 + sum of a_k cos((k + 2) t + phase_k), k < 4, a_k normal with
-/// deviation .25 / (k + 1); spacing jittered by 30 %; noise in all coordinates; in the plane across `axis`.
+/// A closed stroke of n points: radius 1 + sum of a_k cos((k + 2) t + phase_k), k < 4, a_k normal
+/// with deviation .25 / (k + 1); spacing jittered by 30 %; noise in all coordinates; in the plane
+/// across `axis`.
 Curve handStroke(uint32_t n, double noise, Vec3 centre, Vec3 axis, Random& random);
 
-/// Loops of one kind with about `size` vertices in all, at least 3 each. Mostly no two edges meet, but
-/// nobody makes sure: hands do not either.
+/// Loops of one kind with about `size` vertices in all, at least 3 each. Edges rarely meet, but
+/// nothing rules it out: hands do not either.
 Curves handLoops(Hand kind, uint32_t size, Random& random);
 
 /// A number from `low` to `high` whose logarithm is uniform.

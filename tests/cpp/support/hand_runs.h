@@ -1,4 +1,4 @@
-// Spans of loops as hands draw them, ended early: what the short and the long tests of them share.
+// Spans of hand-drawn loops that are ended early: shared by the short and the long tests.
 #pragma once
 #include <string>
 
@@ -13,19 +13,19 @@ struct HandRun {
   sf::Span span;
 };
 
-/// Spans the loops with bestSoFar and has the work end after `ticks` calls of the progress function. The fault
-/// may be: a status that no such problem has; an answer, or a surface on the way, that is none (spanFault);
-/// an answer dearer than one on the way; a bound that is not proven by then, below zero though no weight is,
-/// falls, or exceeds the answer.
+/// Spans the loops with bestSoFar, and ends the work after `ticks` calls of the progress function.
+/// Faults are: a status that no such problem has; an answer or a reported surface that is invalid
+/// (spanFault); an answer dearer than a reported surface; a bound that is not proven at that time,
+/// is below zero though no weight is, falls, or exceeds the answer.
 HandRun spanUntil(const Problem& problem, uint32_t ticks);
 
-/// A problem of that kind of loops: options drawn at random on all default paths, spaces and objectives, with
-/// faces across the loops and triangles to begin from now and then.
-///   most  about how many vertices at most, sizes drawn log-uniformly
+/// A problem with loops of that kind. Its options are drawn at random from all default paths,
+/// spaces and objectives, now and then with faces across the loops and triangles to begin from.
+///   most  about the largest number of vertices; sizes are drawn log-uniformly
 Problem handProblem(Hand kind, uint32_t most, Random& random);
 
-/// Draws `count` of those problems, ends most of them after `ticks` calls and some sooner, and checks (doctest) that
-/// none is at fault and that at least half of them have a surface.
+/// Draws `count` of those problems. Ends most of them after `ticks` calls and some sooner. Checks
+/// (doctest) that none is at fault and that at least half of them have a surface.
 void expectHandAnswers(Hand kind, uint32_t seed, int count, uint32_t most, uint32_t ticks);
 
 }  // namespace sftest

@@ -1,7 +1,7 @@
 // Every way through the solver by name, so that tests can force each of them onto one problem.
 //
-// The product chooses its way by size. Here nothing is chosen: a path says which problems it is for,
-// and then takes them however small they are.
+// The product chooses its way by size. Here a path names the problems that it is for, and then
+// takes them however small they are.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace sftest {
 
-/// What a path says of a problem.
+/// The answer of one path to a problem.
 struct PathAnswer {
   bool found = false;
   double cost = 0;                  // the objective as the path adds it up
@@ -24,12 +24,12 @@ struct Path {
   const char* name;
   bool transform;         // whether angles go through the transform, else all pairs are tried
   double tolerance;       // of costs, relative: 1e-9 but in single precision
-  uint32_t mostVertices;  // beyond, it takes too long
-  uint32_t every;  // 1, or more where it is slow: of the problems it is for, every how manieth
+  uint32_t mostVertices;  // it takes too long with more
+  uint32_t every;         // of the problems it is for, takes one in this many: 1, more if slow
   bool (*isFor)(const Problem& problem);
   PathAnswer (*solve)(const Problem& problem, Random& random);
 
-  /// solve() with the transform or without. Random numbers serve what must not matter: the root.
+  /// solve(), with the transform or without. What must not matter is drawn at random: the root.
   PathAnswer answer(const Problem& problem, Random& random) const;
 };
 

@@ -13,12 +13,12 @@ sf::PolygonView viewOf(const Polygon& polygon);
 uint32_t faultOfStatus(sf::Status status);
 
 /// What either method gets wrong about a polygon, with and without Delaunay flips, strips and a
-/// certificate, empty if nothing: a fault that it does not have, or none where it has one; a pair of
-/// edges that do not meet; a triangulation that is none; strips of other triangles; memory that is
-/// still charged.
+/// certificate; empty if nothing. It is wrong to report a fault that the polygon does not have, or
+/// none if it has one; to name two edges that do not meet; to return an invalid triangulation, or
+/// strips of other triangles; to leave memory charged.
 std::string faultOfTriangulators(const Polygon& polygon);
 
-/// What either method gets wrong about any finite rings when it is to repair them.
+/// What either method gets wrong when it repairs any finite rings; empty if nothing.
 std::string faultOfRepair(const Polygon& polygon, sf::Repair rule);
 
 }  // namespace sftest

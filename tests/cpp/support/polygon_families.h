@@ -19,9 +19,9 @@ struct Family {
 /// The table of families.
 const std::vector<Family>& polygonFamilies();
 
-/// A polygon of a family: unless it is to stay as made, under a random affine map of small
-/// integers and a power of two, neither of which changes what is wrong; rings from random starts,
-/// some reversed, holes in any order.
+/// A polygon of a family. Rings have random starts, some are reversed, holes come in any order.
+/// Unless the polygon is to stay exactly as made, a random affine map of small integers and a power
+/// of two is applied. None of this changes what is wrong.
 Polygon instanceOf(const Family& family, Random& random);
 
 constexpr uint32_t kInstancesPerFamily = 150;

@@ -84,7 +84,7 @@ Polygon garbage(uint32_t rings, uint32_t pointsEach, uint32_t lattice, Random& r
 Polygon quarterTurned(const Polygon& polygon);
 Polygon mirrored(const Polygon& polygon);
 Polygon scaledBy(const Polygon& polygon, double powerOfTwo);
-/// Turns by an angle and moves; rounds, hence for polygons with room to spare alone.
+/// Turns by an angle and moves. Rounds, so only for polygons with room to spare.
 Polygon placed(const Polygon& polygon, double angle, double scale, Point shift);
 /// Each ring from another start, some backwards; holes in another order.
 Polygon rewritten(const Polygon& polygon, Random& random);

@@ -1,4 +1,5 @@
-// The relaxed bound in the plainest way: splits of shapes, a map of what is known, all pairs at an edge.
+// The relaxed bound in the plainest way: splits of shapes, a map of known values,
+// all pairs at an edge.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -13,10 +14,10 @@ class RelaxedOracle {
  public:
   explicit RelaxedOracle(const sf::Pass& pass);
 
-  /// What relaxed_bound.h says of the root, and of any canonical shape and slot.
+  /// The value that RelaxedBound should have for the root, or for any canonical shape and slot.
   double bound(uint32_t rootVertex);
   double value(sf::Shape shape, uint32_t slot);
-  /// Whether splits of the last root lead to that shape, all of whose other parts can be filled.
+  /// Whether the last root splits into that shape, with other parts that can all be filled.
   bool holds(sf::Shape shape) const {
     return reached_.count(std::vector<uint32_t>(shape.begin(), shape.end())) > 0;
   }

@@ -28,21 +28,22 @@ struct Model {
 /// inside.
 bool acceptable(const Model& model);
 
-/// Triangles each from its least vertex on, in order.
+/// Triangles, each beginning with its least vertex, in order.
 std::vector<Triangle> sorted(sf::ArrayView<const uint32_t> corners);
-/// The triangles that OpenGL draws of the session's strips; sets how many indices there are.
+/// The triangles that OpenGL draws of the session's strips; `indices` becomes their index count.
 std::vector<Triangle> drawn(const sf::PolygonSession& session, size_t& indices);
 
-/// What a session does not keep of its promises, judged from outside; empty if it keeps them.
+/// Which promise the session breaks, judged from outside; empty if none.
 std::string faultOf(const sf::PolygonSession& session, const Model& model);
 
 /// Starts both with an acceptable polygon. False if the session refuses it.
 bool startBoth(sf::PolygonSession& session, Model& model, const Polygon& polygon,
                const std::vector<Point>& islands);
 
-/// One random edit of both: of positions by about `reach`, to points of a lattice if that is not 0.
-/// Adds to `accepted` if the session took it. What is wrong then, empty if nothing is: the session
-/// accepts what is not acceptable or refuses what is, tells not all changes, or has a fault.
+/// Makes one random edit to both. Positions change by about `reach`, to points of a lattice if
+/// `lattice` is not 0. Adds to `accepted` if the session took it. Returns what is wrong, empty if
+/// nothing: the session accepts what is not acceptable or refuses what is, does not report all
+/// changes, or has a fault.
 std::string editBoth(sf::PolygonSession& session, Model& model, double reach, uint32_t lattice,
                      Random& random, uint32_t& accepted);
 

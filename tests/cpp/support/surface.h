@@ -37,9 +37,9 @@ sf::SpanTerms measureSurface(const std::vector<sf::Vec3>& positions, const Bound
 std::string spanFault(const sf::LoopSet& loops, const sf::SpanOptions& options,
                       const sf::Span& span);
 
-/// A span for spanFault from a list of candidates over all loop vertices, wound anyhow and in the order
-/// of splitting: wound alike, its terms, cost and bound measured. Triangles that cannot be wound alike
-/// stay as they are.
+/// Makes a span for spanFault from candidates over all loop vertices, in the order of splitting,
+/// however they are wound. Winds them alike and measures terms, cost and bound. Triangles that
+/// cannot be wound alike stay as they are.
 sf::Span spanOf(const sf::LoopSet& loops, const sf::SpanOptions& options,
                 const std::vector<uint32_t>& triangles);
 

@@ -1,18 +1,18 @@
-// Normals of triangles that are all but collinear, whose directions plain arithmetic loses.
+// Normals of nearly collinear triangles, whose direction plain arithmetic would lose.
 #pragma once
 #include "base/expansion.h"
 #include "base/vec.h"
 
 namespace sf {
 
-/// Whether a cross product this long, of vectors of these squared lengths, has lost more than a
-/// few digits to cancellation.
+/// Whether a cross product has lost more than a few digits to cancellation. `crossSquared` is its
+/// squared length, `aSquared` and `bSquared` are those of its factors.
 inline bool isThin(double crossSquared, double aSquared, double bSquared) {
   return crossSquared < 1e-8 * aSquared * bSquared;
 }
 
-/// (b - a) x (c - a) to nearly full precision, as far as its length is above 1e-30 of its factors.
-/// Points in the range of the predicates (base/predicates.h).
+/// (b - a) x (c - a) to nearly full precision, if it is longer than 1e-30 times the product of the
+/// lengths of its factors. Points must be in the range of the predicates (base/predicates.h).
 inline Vec3 accurateCross(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 u = b - a, w = c - a;
   const Vec3 plain = cross(u, w);

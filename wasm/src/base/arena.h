@@ -1,4 +1,4 @@
-// Storage for many small arrays that live equally long: freed all at once, never moved.
+// Storage for many small arrays with one lifetime: freed all at once, never moved.
 #pragma once
 #include <cstdlib>
 #include <type_traits>

@@ -1,4 +1,4 @@
-// SF_ASSERT: invariants of the core, checked in test builds (SF_TESTING) and free elsewhere.
+// SF_ASSERT: invariants of the core, checked in test builds (SF_TESTING), compiled out elsewhere.
 #pragma once
 #ifdef SF_TESTING
 #include <cstdio>

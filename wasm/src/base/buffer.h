@@ -7,7 +7,7 @@
 
 namespace sf {
 
-/// std::allocator, but for elements made without a value, which are left as the memory is.
+/// std::allocator, except that elements made without a value are not initialised.
 template <class T>
 struct LeaveAsIs : std::allocator<T> {
   template <class U>
@@ -28,7 +28,7 @@ struct LeaveAsIs : std::allocator<T> {
   }
 };
 
-/// A vector which `resize` only makes longer or shorter.
+/// A vector whose `resize` leaves new elements uninitialised.
 template <class T>
 using Buffer = std::vector<T, LeaveAsIs<T>>;
 

@@ -24,7 +24,7 @@ class Charge {
   uint64_t bytes_ = 0;
 };
 
-/// Room in a list for `size` elements, charged before it is taken; false beyond the limit.
+/// Makes room in a list for `size` elements, and charges it first; false beyond the limit.
 template <class T>
 bool reserve(std::vector<T>& list, size_t size, Charge& charge) {
   if (size <= list.capacity()) return true;
@@ -33,7 +33,7 @@ bool reserve(std::vector<T>& list, size_t size, Charge& charge) {
   return true;
 }
 
-/// push_back that charges the memory it needs before it is taken; false beyond the limit.
+/// push_back that first charges the memory it needs; false beyond the limit.
 template <class T>
 bool push(std::vector<T>& list, const T& item, Charge& charge) {
   const size_t size = list.size();

@@ -5,7 +5,7 @@
 // predicates", sec. 2: Two-Sum, Two-Product, Fast-Expansion-Sum, Scale-Expansion, Compress.
 // Differs: one bounded container for all sizes, kept short by Compress after every operation.
 //
-// To be included where the compiler may neither fuse nor reorder operations, by source files alone.
+// Include this only in code that is compiled without fused or reordered operations.
 #pragma once
 #include <cmath>
 

@@ -13,7 +13,7 @@ namespace sf {
 
 namespace circles {
 
-/// What the filter looks at: the sine, in two terms, and the sizes of these.
+/// The two terms of the sine that the filter computes, and their sizes.
 struct Terms {
   Double2 dotX, dotY, crossX, crossY;
 
@@ -38,8 +38,8 @@ struct Terms {
   }
 };
 
-/// Beyond this the sine is right, which has ten roundings in each term, and as many in its size; the last
-/// number is above all underflows.
+/// The sign of a sine larger than this is right: each of its terms has at most ten roundings, and
+/// so has its size. The last number exceeds all underflows.
 inline double errorOf(double size) { return 0x1p-49 * size + 1e-290; }
 
 }  // namespace circles
@@ -53,13 +53,13 @@ inline bool inCircle(Point2 a, Point2 b, Point2 c, Point2 d) {
   return incircle(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y) > 0;
 }
 
-/// An error of the sine for all points of a box.
+/// The error of the sine, for all points of a box.
 inline double errorOfCircles(Point2 least, Point2 greatest) {
   const double width = greatest.x - least.x, height = greatest.y - least.y;
   return circles::errorOf(4.01 * width * height * (width * width + height * height));
 }
 
-/// The same, quicker, for points of a box of which that is the error.
+/// The same, but faster: `error` is errorOfCircles of a box that holds the points.
 inline bool inCircle(Point2 a, Point2 b, Point2 c, Point2 d, double error) {
   const double sine = circles::Terms(a, b, c, d).sine();
   if (std::fabs(sine) > error) return sine < 0;

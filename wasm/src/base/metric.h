@@ -1,5 +1,5 @@
-// Coordinates in the range in which the predicates for circles and angles are exact: it is smaller than
-// the range that coordinates may have.
+// Scales coordinates into the range where the predicates for circles and angles are exact. This
+// range is smaller than the range that input may have.
 #pragma once
 #include <cmath>
 
@@ -7,7 +7,7 @@
 
 namespace sf {
 
-/// A coordinate times 2^-exponent, or zero where that is too small for exact predicates.
+/// A coordinate times 2^-exponent, or zero if that is too small for exact predicates.
 inline double scaledDown(double x, int exponent) {
   const double s = std::ldexp(x, -exponent);
   return std::fabs(s) < 0x1p-200 ? 0.0 : s;

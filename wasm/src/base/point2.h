@@ -11,13 +11,13 @@ struct Point2 {
 };
 inline bool operator==(Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; }
 
-/// Whether a point may be given: NaN and what is beyond kLargestCoordinate may not.
+/// Whether a point is accepted as input: no coordinate is NaN or beyond kLargestCoordinate.
 inline bool isAccepted(Point2 p) {
   return std::fabs(p.x) <= kLargestCoordinate && std::fabs(p.y) <= kLargestCoordinate;
 }
 
-/// Whether a is lower than b: by y, at equal heights by x, as if horizontal lines rose a little
-/// towards the right. Points at one place are not below each other.
+/// Whether a is lower than b: by y, and at equal y by x, as if horizontal lines rose a little
+/// towards the right. Of two points at one place neither is below the other.
 /// Source: Ronfard, Rossignac 1994, sec. 5, `below`.
 inline bool below(Point2 a, Point2 b) { return a.y < b.y || (a.y == b.y && a.x < b.x); }
 

@@ -40,7 +40,7 @@ constexpr double kExactScale = 0x1p150;
 int signOf(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 double max2(double a, double b) { return a > b ? a : b; }
 
-// Double-double arithmetic. Out of line: of the second stages, which would be many times as long.
+// Double-double arithmetic. Out of line: inlined, the second stages would be many times as long.
 __attribute__((noinline)) Pair operator+(Pair a, Pair b) {
   Pair s = twoSum(a.hi, b.hi), t = twoSum(a.lo, b.lo);
   s = fastTwoSum(s.hi, s.lo + t.hi);
@@ -148,8 +148,8 @@ void widen(Vec3& extent, const Vec3& a, const Vec3& b) {
 }
 double greatest(const Vec3& v) { return max2(max2(v.x, v.y), v.z); }
 
-/// The sign of ax by - bx ay for differences that were computed without error, as those of points on
-/// a lattice or with a coordinate in common are; kUnknown if two roundings leave it open.
+/// The sign of ax by - bx ay, for differences computed without error, like those of lattice points
+/// or of points with a coordinate in common; kUnknown if two roundings leave it open.
 constexpr int kUnknown = 2;
 int signOfMinor2(Pair ax, Pair ay, Pair bx, Pair by) {
   if (ax.lo != 0 || ay.lo != 0 || bx.lo != 0 || by.lo != 0) return kUnknown;
@@ -164,7 +164,7 @@ int signOfMinor2(Pair ax, Pair ay, Pair bx, Pair by) {
   return d != 0 ? signOf(d) : kUnknown;
 }
 
-// The later stages are kept out of line, for the sake of the code around the calls.
+// The later stages are kept out of line: inlined, they would slow down the code around the calls.
 __attribute__((noinline)) int orient3dCarefully(const Vec3& a, const Vec3& b, const Vec3& c,
                                                 const Vec3& d, const Vec3& extent, double det) {
   // 16 bits: a sum of 6 products of three differences stays below 2^53 units, hence has no error.
@@ -283,7 +283,7 @@ int insphereByRank(const Vec3* const p[5], const uint32_t rank[5]) {
       if (rank[i] < below && (top < 0 || rank[i] > rank[top])) top = i;
     SF_ASSERT(top >= 0);
     // Raising the tested point takes it out. Raising a corner raises the hyperplane on that
-    // corner's side of the other three, by which the tested point comes to lie below it or above.
+    // corner's side of the other three; the tested point is then below it or above it.
     if (top == 4 || top < 0) return -1;
     const Vec3* q[4] = {p[0], p[1], p[2], p[3]};
     q[top] = p[4];

@@ -1,7 +1,7 @@
-// Sorting, in a tenth of the code that std::sort puts into the module for each type and order: there
-// are dozens of these, and most sort little.
+// Sorting in a tenth of the code size of std::sort, which is compiled anew for each type and order:
+// there are dozens of these, and most sort few items.
 // Source: Musser 1997, "Introspective sorting and selection algorithms": quicksort by the median of
-// three, heapsort for what it splits badly too often, insertion for short ranges.
+// three, heapsort after too many bad splits, insertion sort for short ranges.
 #pragma once
 #include <cstddef>
 #include <utility>
@@ -53,7 +53,8 @@ void heapSort(T* items, size_t count, Less& less) {
   }
 }
 
-/// How many items go to the left, at least one and not all: none of them is greater than any other.
+/// Puts small items to the left and returns how many there are: at least one, not all. None of them
+/// is greater than any item on the right.
 template <class T, class Less>
 size_t partition(T* items, size_t count, Less& less) {
   T &first = items[0], &middle = items[count / 2], &last = items[count - 1];
@@ -62,7 +63,7 @@ size_t partition(T* items, size_t count, Less& less) {
     std::swap(last, middle);
     if (less(middle, first)) std::swap(middle, first);
   }
-  // The outer two stop the scans.
+  // The first and the last item stop the scans.
   const T pivot = middle;
   T *i = items, *j = items + count - 1;
   for (;;) {
@@ -75,7 +76,7 @@ size_t partition(T* items, size_t count, Less& less) {
   }
 }
 
-/// Goes on in the longer side and calls itself for the shorter: at most log2(count) calls deep.
+/// Loops over the longer side and calls itself for the shorter: at most log2(count) calls deep.
 template <class T, class Less>
 void introsort(T* items, size_t count, int badSplits, Less& less) {
   while (count > kShort) {
@@ -94,8 +95,8 @@ void introsort(T* items, size_t count, int badSplits, Less& less) {
 
 }  // namespace sorting
 
-/// Sorts the items from `first` up to `last`, which lie one after the other in memory; equal ones come
-/// in an order that depends on all. O(n log n) comparisons, no allocation.
+/// Sorts the items from `first` to before `last`, which must be contiguous in memory. Equal items
+/// come in an order that depends on all items. O(n log n) comparisons, no allocation.
 ///   less  a strict weak order
 template <class Iterator, class Less = Ascending>
 void sort(Iterator first, Iterator last, Less less = {}) {

@@ -1,4 +1,4 @@
-// What a call of the core ends with, and where in its input the trouble lies.
+// How a call of the core ended, and which part of its input is at fault.
 #pragma once
 #include <cstdint>
 
@@ -14,7 +14,7 @@ enum class Status : int32_t {
 };
 
 constexpr uint32_t kNone = 0xFFFFFFFFu;
-/// Of a coordinate: squares have to stay finite.
+/// The largest magnitude of a coordinate: squares have to stay finite.
 constexpr double kLargestCoordinate = 1e150;
 
 /// A status with the place it is about; kNone where a place does not apply.

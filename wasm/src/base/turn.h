@@ -1,5 +1,5 @@
-// orient2d on points of any magnitude, its filter inline: the one geometric test of the sweep and of
-// flooding.
+// orient2d on points of any magnitude, its filter inline: the one geometric test of the sweep and
+// of flooding.
 // Source: Shewchuk 1997, orient2d, stage A; Ronfard, Rossignac 1994, sec. 5, `convex`.
 #pragma once
 #include <cmath>
@@ -7,16 +7,17 @@
 
 namespace sf {
 
-/// turn for what the filter cannot tell: base/predicates.h where its range allows, else a sum in
-/// integers of some thousand bits.
+/// turn where the filter leaves the sign open: by base/predicates.h if its range allows, else by an
+/// exact sum in integers of some thousand bits.
 double turnExactly(Point2 a, Point2 b, Point2 c);
 
-/// What the filter's determinant may be wrong by, for products whose sizes have that sum: Shewchuk's
-/// (3 + 16 u) u with u = 2^-53, rounded up; the last number is above all underflows.
+/// The largest error of the filter's determinant if the magnitudes of its two products sum to
+/// `sizes`: Shewchuk's (3 + 16 u) u with u = 2^-53, rounded up.
+/// The last number exceeds all underflows.
 inline double errorOfTurn(double sizes) { return 0x1p-51 * sizes + 1e-290; }
 
-/// Positive if a, b, c turn left, negative if right, 0 if collinear. Exact for all points that
-/// are accepted.
+/// Positive if a, b, c turn left, negative if right, 0 if collinear.
+/// Exact for all accepted points (isAccepted).
 inline double turn(Point2 a, Point2 b, Point2 c) {
   const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
   const double det = left - right;
@@ -24,19 +25,20 @@ inline double turn(Point2 a, Point2 b, Point2 c) {
   return turnExactly(a, b, c);
 }
 
-/// An error of the determinants of all points of a box.
+/// The largest error of a determinant, for all points of a box.
 inline double errorOfTurns(Point2 least, Point2 greatest) {
   return errorOfTurn(2.01 * (greatest.x - least.x) * (greatest.y - least.y));
 }
 
-/// The same, quicker, for points of a box of which that is the error.
+/// The same, but faster: `error` is errorOfTurns of a box that holds the points.
 inline double turn(Point2 a, Point2 b, Point2 c, double error) {
   const double det = (a.x - c.x) * (b.y - c.y) - (a.y - c.y) * (b.x - c.x);
   if (std::fabs(det) > error) return det;
   return turn(a, b, c);
 }
 
-/// +1 if the direction from c to d is left of that from a to b, -1 right, 0 parallel. Exact alike.
+/// +1 if the direction from c to d is left of that from a to b, -1 right, 0 parallel.
+/// As exact as turn.
 int turnBetween(Point2 a, Point2 b, Point2 c, Point2 d);
 
 }  // namespace sf

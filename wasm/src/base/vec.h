@@ -1,4 +1,4 @@
-// Three-component vectors of doubles: the only geometry type of the core.
+// Three-component vectors of doubles.
 #pragma once
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // The budget of one call: memory in use against its limit, and progress that may end the work.
 //
-// The core does not throw and does not read clocks: whoever starts a call hands it a progress
-// function, which reports, looks at the time and at cancellation, and answers whether to go on.
+// The core does not throw and does not read clocks. The caller passes a progress function, which
+// reports, looks at the time and at cancellation, and decides whether to go on.
 #pragma once
 #include <cmath>
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace sf {
 /// Called about every millisecond of work. Returns true to go on, false to stop.
 ///   fraction    0 to 1, share of the work done; never falls during one call
 ///   bestCost    cost of the best surface so far, +infinity while there is none
-///   lowerBound  proven lower bound on the optimum; 0 at first, less where triangles have negative weights
+///   lowerBound  proven lower bound on the optimum; 0 at first, less if there are negative weights
 using ProgressFunction = bool (*)(void* user, double fraction, double bestCost, double lowerBound);
 
 class Work {
@@ -24,7 +24,7 @@ class Work {
   Work(size_t maxBytes, ProgressFunction progress, void* user)
       : maxBytes_(maxBytes), progress_(progress), user_(user) {}
 
-  /// Charges `bytes` against the limit; false, with status OutOfMemory, once that exceeds it.
+  /// Charges `bytes`; false, with status OutOfMemory, once more than the limit is in use.
   bool charge(uint64_t bytes) {
     used_ += bytes;
     if (used_ > peak_) peak_ = used_;
@@ -35,22 +35,22 @@ class Work {
   /// Whether `bytes` more would still fit: for sizes predicted before the work begins.
   bool fits(double bytes) const { return bytes <= double(maxBytes_) - double(used_); }
 
-  /// Counts `units` of about a nanosecond; now and then asks the progress function.
-  /// False once the work has to end, for whatever reason: return at once, freeing what you hold.
+  /// Counts `units` of about a nanosecond, and calls the progress function now and then. False once
+  /// the work has to end for whatever reason: return at once, and free what you hold.
   bool tick(uint32_t units) {
     pending_ += units;
     if (pending_ >= kUnitsPerReport) report();
     return status_ == Status::Ok;
   }
-  /// The part of the whole work that begins now: the phases that follow lie inside [a, b] of it.
-  /// What was known of costs is forgotten; those of this part are told times 2^costExponent.
-  ///   lowerBound  proven from the start
+  /// Begins a part of the work: the phases that follow fill the fractions [a, b] of the whole.
+  /// Forgets the costs known so far. Costs of this part are reported times 2^costExponent.
+  ///   lowerBound  proven from the start, in the unit of this part
   void beginPart(double a, double b, int costExponent, double lowerBound = 0) {
     partStart_ = a, partEnd_ = b, costExponent_ = costExponent;
     best_ = std::numeric_limits<double>::infinity(), lower_ = lowerBound;
     phase(0, 1);
   }
-  /// The phase that begins now, of the current part: `setFraction(0..1)` is inside [a, b] of it.
+  /// Begins a phase of the current part: `setFraction(0..1)` fills the fractions [a, b] of it.
   void phase(double a, double b) {
     phaseStart_ = partStart_ + (partEnd_ - partStart_) * a;
     phaseEnd_ = partStart_ + (partEnd_ - partStart_) * b;
@@ -60,16 +60,16 @@ class Work {
     double f = phaseStart_ + (phaseEnd_ - phaseStart_) * inPhase;
     if (f > fraction_) fraction_ = f < 1 ? f : 1;
   }
-  /// What is known now of the part: the lower bound never falls.
+  /// Sets the costs known now in this part. The lower bound never falls.
   void setBounds(double bestCost, double lowerBound) {
     best_ = bestCost;
     if (lowerBound > lower_) lower_ = lowerBound;
   }
 
-  /// Has the work end, as if stopped, after about so many units more. What is solved meanwhile must be of use
-  /// unfinished: endAllowance() lets the work go on.
+  /// Ends the work, as if stopped, after about `units` more. For work that is of use unfinished:
+  /// endAllowance() then lets the rest go on.
   void beginAllowance(uint64_t units) { allowed_ = spent_ + pending_ + units; }
-  /// Whether the allowance ended the work.
+  /// Lifts the allowance; returns whether it had ended the work, which can then go on.
   bool endAllowance() {
     const bool isUsedUp = isPaused_;
     if (isUsedUp) status_ = Status::Ok;
@@ -82,14 +82,14 @@ class Work {
   void fail(Status s) {
     if (status_ == Status::Ok) status_ = s;
   }
-  /// The lower bound of the part that is under way, times 2^costExponent.
+  /// The lower bound of the current part, times 2^costExponent.
   double lowerBound() const { return std::ldexp(lower_, costExponent_); }
   /// Units counted so far.
   uint64_t spent() const { return spent_ + pending_; }
   uint64_t used() const { return used_; }
   uint64_t peak() const { return peak_; }
 
-  /// Asks the progress function now.
+  /// Calls the progress function now.
   void report() {
     spent_ += pending_;
     pending_ = 0;
@@ -112,7 +112,7 @@ class Work {
   uint64_t used_ = 0, peak_ = 0;  // 64 bits: sums are compared with the limit afterwards
   uint32_t pending_ = 0;
   uint64_t spent_ = 0, allowed_ = ~uint64_t(0);  // units
-  bool isPaused_ = false;                        // ended by the allowance alone
+  bool isPaused_ = false;                        // only the allowance ended the work
   double fraction_ = 0, partStart_ = 0, partEnd_ = 1, phaseStart_ = 0, phaseEnd_ = 1;
   int costExponent_ = 0;
   double best_ = std::numeric_limits<double>::infinity(), lower_ = 0;

@@ -19,13 +19,14 @@ struct Delaunay {
 /// Delaunay triangulation if all are coplanar, none if they are collinear. Of equal points the
 /// first stands for all. Ties are broken by index (insphereByRank).
 ///   points  [n] finite, any magnitude; n up to 2^28
-/// Status Ok, OutOfMemory or Stopped. The result's memory is not charged any more on return.
+/// Status Ok, OutOfMemory or Stopped. The memory of the result is no longer charged on return.
 /// 100 000 random points take about half a second and 30 MB besides the result.
 Status delaunay(ArrayView<const Vec3> points, Work& work, Delaunay& result);
 
-/// The triangles of a tetrahedralization: each once, its vertices increasing, in lexicographic order.
+/// The triangles of a tetrahedralization: each once, its vertices increasing,
+/// in lexicographic order.
 ///   facets  [3f] the result
-///   number  [n] by which each point is called instead of its index, or empty
+///   number  [n] the number to write for each point in place of its index, or empty
 /// False once the work has to end.
 bool sortedFacets(const Tetrahedralization& cells, Work& work, std::vector<uint32_t>& facets,
                   ArrayView<const uint32_t> number = {});

@@ -12,15 +12,16 @@ namespace sf {
 /// firstOf[i] becomes the least j with points[j] == points[i] (-0 equals 0). O(n) expected time.
 ///   points   [n] finite
 ///   firstOf  [n] the result
-/// False, with nothing to use in firstOf, once the work has to end.
+/// False once the work has to end; firstOf is then undefined.
 bool findEqualPoints(ArrayView<const Vec3> points, Work& work, std::vector<uint32_t>& firstOf);
 
-/// Puts point numbers into a biased randomized insertion order: rounds, each about twice as large
-/// as the one before, chosen by a fixed hash of the number; Hilbert order inside of each round.
+/// Puts point numbers into a biased randomized insertion order. A fixed hash of the number divides
+/// them into rounds, each about twice as large as the one before; within a round they are in
+/// Hilbert order. False once the work has to end.
 /// Source: Amenta, Choi, Rote 2003, "Incremental constructions con BRIO"; Skilling 2004,
 /// "Programming the Hilbert curve", for the curve.
 ///   points  all points, of magnitude at most 1
-///   order   the numbers of those to be sorted; reordered
+///   order   the numbers to sort; reordered in place
 bool sortForInsertion(ArrayView<const Vec3> points, Work& work, std::vector<uint32_t>& order);
 
 }  // namespace sf

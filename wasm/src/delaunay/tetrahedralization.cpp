@@ -200,8 +200,8 @@ uint32_t Tetrahedralization::newCell() {
   return uint32_t(cells_.size()) - 1;
 }
 
-// Finds the neighbour of a new cell across the face opposite of its corner k: turns around the edge
-// that this face and the rim facet, face `i` of cavity cell `t`, have in common, until the rim.
+// Finds the neighbour of a new cell across the face opposite of its corner k. Turns around the edge
+// that this face has in common with the rim facet (face `i` of cavity cell `t`), until the rim.
 void Tetrahedralization::linkAroundEdge(uint32_t t, uint32_t i, uint32_t created, int k) {
   uint32_t leave = cells_[t].find(cells_[created].v[k]), enter = i;
   for (;;) {

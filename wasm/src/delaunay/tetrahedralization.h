@@ -14,10 +14,10 @@
 
 namespace sf {
 
-/// The Delaunay tetrahedralization of a growing set of points. Co-spherical points are separated as
-/// insphereByRank says, a point's rank being its index unless given: the outcome depends on points
-/// and ranks alone, not on the order of insertion. Each member returns false once the work has to
-/// end (see Work); the object is good for destruction only then.
+/// The Delaunay tetrahedralization of a growing set of points. insphereByRank breaks ties among
+/// co-spherical points; a point's rank is its index unless given. So the result depends on points
+/// and ranks alone, not on the order of insertion. Members return false once the work has to end
+/// (see Work); after that the object may only be destroyed.
 class Tetrahedralization {
  public:
   explicit Tetrahedralization(Work& work) : work_(work) {}
@@ -27,18 +27,19 @@ class Tetrahedralization {
 
   /// Adds points, which get the indices pointCount(), pointCount() + 1, ...
   ///   points  [m] in the range of the predicates (scaleToUnit)
-  ///   ranks   [m] different from all others and below 2^32 - 2, or empty for the indices
+  ///   ranks   [m] different from each other and all earlier ones, below 2^32 - 2; empty: the
+  ///           indices
   /// Expected O(log n) time a point on points with a linear-size result, O(n) memory.
   bool add(ArrayView<const Vec3> points, ArrayView<const uint32_t> ranks = {});
 
   uint32_t pointCount() const { return points_.empty() ? 0 : uint32_t(points_.size()) - 1; }
   const Vec3& point(uint32_t i) const { return points_[i + 1]; }
-  /// The least index of an equal point; i itself if there is none before.
+  /// The least index of a point equal to point i, which may be i itself.
   uint32_t duplicateOf(uint32_t i) const { return firstEqual_[i]; }
   /// Dimension of the points' affine hull, 0 to 3; -1 without points.
   int dimension() const { return dimension_; }
 
-  /// Whether some choice so far was made by rank, so that other ranks could have other outcomes.
+  /// Whether a rank has broken a tie so far. If not, other ranks would give the same result.
   bool hadTies() const { return hadTies_; }
 
   /// Calls f(a, b, c, d) for each tetrahedron, positively oriented (dimension 3).
@@ -52,13 +53,13 @@ class Tetrahedralization {
   /// planar triangles in dimension 2, nothing below.
   template <class F>
   void forEachFacet(F f) const;
-  /// Calls f(a, b) for each edge, in general several times; in dimension 1 for each pair of
+  /// Calls f(a, b) for each edge, usually several times; in dimension 1 once for each pair of
   /// neighbours on the line.
   template <class F>
   void forEachEdge(F f) const;
 
  private:
-  // Vertex numbers inside: 0 is the apex of coplanar input, i + 1 the point i.
+  // Vertex numbers inside: 0 is the apex of coplanar input, i + 1 is point i.
   static constexpr uint32_t kApex = 0;
   static constexpr uint32_t kGhost = 0xFFFFFFFFu;  // the vertex at infinity, in slot 0 of its cells
   static constexpr uint32_t kFree = 0xFFFFFFFEu;   // in slot 0 of unused cells
@@ -67,7 +68,7 @@ class Tetrahedralization {
   struct Cell {
     uint32_t v[4];  // positively oriented if finite
     uint32_t n[4];  // 4 * neighbour + face there, across the face opposite of v[i]
-    uint32_t mark;  // 2 * step if in that step's cavity, 2 * step + 1 if found not to be
+    uint32_t mark;  // 2 * step if in that step's cavity, 2 * step + 1 if tested and not in it
     bool isFinite() const { return v[0] < kFree; }
     uint32_t find(uint32_t vertex) const {
       uint32_t i = 0;

@@ -13,26 +13,28 @@
 namespace sf {
 namespace {
 
-/// Splits of domains, times the vertices, to try first: fans cost in proportion to the vertices too.
+/// Splits of domains to try first, for each vertex: the cost of fans is proportional to the
+/// vertices too.
 constexpr uint64_t kSplitsOfFew = 30000;
 constexpr uint64_t kSplitsOfMany = 1000;
-/// Loops whose domains are few if candidates are: for each triangle of a surface, and at each edge.
+/// Domains are few if loops and candidates are. Limits: loops; candidates for each triangle of a
+/// surface, and at each edge.
 constexpr uint32_t kFewLoops = 4;
 constexpr double kFewCandidates = 32, kFewAtEdge = 8;
-/// Of that number from round to round.
+/// Growth of the number of splits from round to round.
 constexpr uint64_t kGrowth = 6;
-/// Of a split in R, in nanoseconds.
+/// Time of a split in R, in nanoseconds.
 constexpr double kTimeOfSplit = 200;
 
-/// Cuts to try before anything else, where surfaces on the way are of use, and between fans.
+/// Cuts to try before anything else, if surfaces on the way are of use, and between fans.
 constexpr uint32_t kFirstTries = 64, kFirstTriesOfFew = 8;
 constexpr uint32_t kTriesPerRound = 24;
 
 /// Sums in another order differ in the last digits.
 double withRounding(double cost) { return cost + 1e-9 * std::fabs(cost); }
 
-/// What the costs of triangles alone prove: a surface has n + 2k - 4 of them, and angles cost nothing at
-/// least. Infinity if so many are not allowed.
+/// The bound that the costs of triangles alone prove: a surface has n + 2k - 4 triangles, and
+/// angles cost at least 0. Infinity if fewer triangles are allowed.
 double boundOfCosts(const Task& task) {
   if (task.measure.isWorst()) return 0;
   std::vector<double> costs;
@@ -123,8 +125,8 @@ bool PassSolver::solveAll(uint64_t maxSplits, bool& solved) {
   return true;
 }
 
-/// Solves by the domains that a surface better than the best one can have, as far as fans tell, unless
-/// those are too many for `maxSplits`.
+/// Solves by the domains that a surface better than the best one can have by the fans' bounds.
+/// Gives up if those are too many for `maxSplits`.
 bool PassSolver::solveBetter(const FanBound& fans, uint64_t maxSplits, bool& solved) {
   const uint64_t before = task_.work.used();
   Optimum found;
@@ -153,16 +155,16 @@ bool PassSolver::solveBetter(const FanBound& fans, uint64_t maxSplits, bool& sol
   return good;
 }
 
-/// Solves a task that is too large for all its domains: bounds it by its fans, finds surfaces by cuts,
-/// and then solves it by the domains that both leave. All three get better from round to round, and the
-/// rounds longer.
+/// Solves a task that is too large for all its domains. Bounds it by its fans, finds surfaces by
+/// cuts, and then solves it by the domains that both leave. All three get better from round to
+/// round, and the rounds get longer.
 bool PassSolver::solveByFans(uint64_t maxSplits) {
   FanBound fans(task_.loops, task_.set, task_.triangleCost, task_.measure, task_.work);
   if (!search_ && !beginSearch()) return false;
   leastPair_ = leastPairs(task_.set, task_.measure);
   for (uint32_t round = 0; task_.work.going(); ++round) {
     task_.work.setFraction(1 - 1 / (1 + 0.3 * round));
-    // Neither of the two may take much more time than the other: which one gets there is not known.
+    // Neither of the two may take much more time than the other, since either may get there first.
     const double steps = kTimeOfSplit * double(maxSplits) / fans.timeOfStep();
     if (!fans.ascend(uint32_t(std::clamp(steps, 10.0, 300.0)), best_.cost())) return false;
     raise(fans.lowerBound());
@@ -189,8 +191,8 @@ bool PassSolver::lookForFirst(uint32_t tries) {
 }
 
 /// The least largest angle over several loops: finds a surface by cuts, and then solves over the
-/// triangles that a surface of smaller angles can have. Those are few, since it is angles near the least
-/// one that have to be told apart.
+/// triangles that a surface of smaller angles can have. These are few: only angles near the least
+/// one have to be told apart.
 bool PassSolver::solveWorst(uint64_t maxSplits) {
   FanFilter filter(task_.loops, task_.set, task_.triangleCost, task_.work);
   if (!search_ && !beginSearch()) return false;
@@ -218,9 +220,9 @@ bool PassSolver::run(double from, double to) {
   const uint32_t k = loops.loopCount();
   const bool large = isLarge(loops, task_.set), worst = task_.measure.isWorst();
   const bool dense = large && isDense(loops, task_.set);
-  // Hubs make fans expensive: their labels may take what some times the candidates do.
+  // Hubs make fans expensive: their labels may take several times what the candidates do.
   const double fanBytes = worst ? 0 : FanBound::bytesFor(loops, task_.set);
-  // Without a triangle at some loop edge there is no surface, which is seen at once.
+  // If some loop edge has no triangle there is no surface, which shows at once.
   const bool gap = std::count(task_.set.loopEdges.begin(), task_.set.loopEdges.end(), kNone) > 0;
   const bool direct = k == 1 || gap || dense || (worst && large && k > 2) || !work.fits(fanBytes) ||
                       fanBytes > 40 * CandidateSet::bytesFor(double(task_.set.size()));

@@ -93,7 +93,7 @@ Outcome PolygonTriangulator::State::append(const PolygonView& polygon,
     return outcome;
   }
   const bool sagsOnly = options.method == PolygonMethod::Flooding;
-  // Trapezoids lie along x, and a trace tells of heights along y.
+  // Trapezoids lie along x, and a trace is about heights along y.
   outcome = sweep.run(polygon, sagsOnly, sagsOnly && !trace, work, loops, seen);
   if (!outcome.ok()) return outcome;
   bool done = triangulateLoops(options, work, charge, trace);

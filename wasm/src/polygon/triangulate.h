@@ -15,7 +15,7 @@ namespace sf {
 struct PolygonTriangulation {
   // [3m] counter-clockwise, vertices as in the input. m = n + 2 holes - 2 if rings do not touch; a
   // touch at vertices leaves out two triangles. Triangles of area 0 occur only where consecutive
-  // vertices are equal or a vertex lies on an edge of another place in the rings.
+  // vertices are equal, or where a vertex lies on an edge elsewhere in the rings.
   std::vector<uint32_t> triangles;
   std::vector<uint32_t> strips, stripStarts;  // if asked for: OpenGL order, strip i is
                                               // strips[stripStarts[i] .. stripStarts[i+1]]
@@ -49,8 +49,8 @@ class PolygonTriangulator {
   ~PolygonTriangulator();
 
   /// Every triangle lies inside the polygon, and they cover it exactly, without T-junctions.
-  /// Errors: those of PlaneSweep::run, unless `repair` is set: then NotFinite, BadStarts,
-  /// OutOfMemory, TooLarge and Stopped alone. O(n log n) time, O(n) memory, charged to `work`.
+  /// Errors: those of PlaneSweep::run; with `repair` only NotFinite, BadStarts, OutOfMemory,
+  /// TooLarge and Stopped. O(n log n) time, O(n) memory, charged to `work`.
   Outcome triangulate(const PolygonView& polygon, const PolygonOptions& options, Work& work,
                       PolygonTriangulation& result);
 

@@ -43,7 +43,7 @@ void sortForInsertion(ArrayView<const Point2> at, std::vector<uint32_t>& indices
     high = {std::max(high.x, at[i].x), std::max(high.y, at[i].y)};
   }
   const double side = std::max(high.x - low.x, high.y - low.y);
-  // So close together that the quotient may overflow, they are in one cell.
+  // Points so close together that the quotient may overflow are in one cell.
   const double scale = side > 0x1p-1000 ? ((1 << kBits) - 1) / side : 0;
   std::vector<uint64_t> keys;
   keys.reserve(indices.size());

@@ -1,5 +1,6 @@
-// Where a point lies among triangles: a walk towards it.
-// Source: Devillers, Pion, Teillaud 2002, "Walking in a triangulation": the stochastic visibility walk.
+// Finds where a point lies among triangles, by a walk towards it.
+// Source: Devillers, Pion, Teillaud 2002, "Walking in a triangulation": the stochastic visibility
+// walk.
 #pragma once
 #include <cstdint>
 
@@ -7,16 +8,16 @@
 
 namespace sf {
 
-/// Walks from triangle to triangle. A walk may go round in circles where triangles are not Delaunay, but not
-/// for ever if it chooses its edges at random. The choices are the same on every machine.
+/// Walks from triangle to triangle. If triangles are not Delaunay a walk may go round in circles,
+/// but not for ever if it chooses its edges at random. The choices are the same on every machine.
 class Locator {
  public:
-  /// The triangle that p lies in, on its border at most. Not found where a boundary is in the way, and after
-  /// `steps` steps. Expected O(sqrt m) steps among Delaunay triangles.
+  /// The triangle in which p lies, perhaps on its border. Not found if a boundary is in the way, or
+  /// after `steps` steps. Expected O(sqrt m) steps among Delaunay triangles.
   ///   h  a half-edge of the triangle to begin with
   TriangleMesh::Place walk(const TriangleMesh& mesh, uint32_t h, Point2 p, uint32_t steps);
-  /// The same, but looks at every triangle after too many steps. Not found: a boundary is in the way, or no
-  /// triangle holds p. O(m) at worst.
+  /// The same, but looks at every triangle if the walk does not find one. Not found if no triangle
+  /// holds p. O(m) at worst.
   TriangleMesh::Place locate(const TriangleMesh& mesh, uint32_t h, Point2 p);
 
  private:

@@ -7,7 +7,7 @@
 namespace sf {
 namespace {
 
-// Edges done with are dropped now and then.
+// Edges that are done are dropped now and then.
 constexpr size_t kForget = 1u << 16;
 
 }  // namespace
@@ -29,8 +29,8 @@ bool findTwins(ArrayView<const uint32_t> corners, uint32_t vertexCount, Work& wo
   for (uint32_t h = 0; h < count; ++h) {
     if (twins[h] != kNone) continue;
     const uint32_t a = corners[h], b = end(h);
-    // The twin runs from b to a. Looking at the end with fewer half-edges keeps this linear in all:
-    // the sum over the edges of a planar graph of the lesser degree is.
+    // The twin runs from b to a. Searching at the end with fewer half-edges keeps the whole linear:
+    // in a planar graph the lesser degrees of all edges have a linear sum.
     const bool atB = degree(b) <= degree(a);
     const uint32_t v = atB ? b : a;
     for (uint32_t i = starts[v]; i < starts[v + 1]; ++i) {
@@ -55,7 +55,7 @@ bool TriangleMesh::isIllegal(uint32_t h) const {
   const uint32_t v[4] = {from(h), to(h), apex(h), apex(g)};
   const Point2 a = metric[v[0]], b = metric[v[1]], c = metric[v[2]], d = metric[v[3]];
   if (incircle(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y) <= 0) return false;
-  // Implied where `metric` is `at`; elsewhere what it says of angles may be all wrong.
+  // Always true if `metric` is `at`; otherwise the angles of `metric` may be all wrong.
   return orient(v[0], v[3], v[2]) > 0 && orient(v[1], v[2], v[3]) > 0;
 }
 
@@ -73,7 +73,7 @@ void ClosableTwins::open() {
 void ClosableTwins::fromPlain(ArrayView<const uint32_t> plain) {
   const uint32_t halves = uint32_t(plain.size());
   reset(halves, 0);
-  // What is opposite corner k begins at the next corner.
+  // The half-edge opposite corner k begins at the next corner.
   for (uint32_t h = 0; h < halves; ++h) {
     const uint32_t g = plain[nextInTriangle(h)];
     of[h] = g == kNone ? outside : prevInTriangle(g);

@@ -1,4 +1,5 @@
-// Triangles that share edges, as half-edges in flat arrays, and what changes them in place.
+// Triangles that share edges, as half-edges in flat arrays,
+// and operations that change them in place.
 //
 // Triangle t has the corners corners[3t .. 3t+2], counter-clockwise. Half-edge 3t + k runs from
 // corner k to corner k + 1 of t; its twin runs the other way in the triangle on its other side.
@@ -23,34 +24,37 @@ inline uint32_t prevInTriangle(uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; 
 /// Finds the twin of every half-edge. False when the work ended.
 ///   corners      [3m] indices below vertexCount, all triangles of one orientation
 ///   twins        [3m] out: half-edges, kNone where no other triangle has that edge
-/// An edge that more than one pair of triangles has, as at touching vertices, is paired in some
-/// way. O(m) time for triangles that do not overlap, also where one vertex has very many.
+/// If more than two triangles share an edge, as where rings touch, they are paired in some way.
+/// O(m) time for triangles that do not overlap, even if very many meet at one vertex.
 bool findTwins(ArrayView<const uint32_t> corners, uint32_t vertexCount, Work& work,
                std::vector<uint32_t>& twins);
 
-/// Twins while edges between triangles may be closed for a time. Half-edges are named otherwise here: 3t + k
-/// is the one opposite corner k, so that corners[h] is what a half-edge sees. All that lies beyond the
-/// triangles has half-edges of its own, and pairing takes no questions: `outside` stands for the far sides
-/// of all edges of the loops; after it come those of closed edges, two by two. A closed edge of half-edges
-/// h and g with far sides c and c + 1 has of[h] = c, of[c] = h, of[g] = c + 1, of[c + 1] = g.
+/// Twins for triangles whose common edges may be closed for a time. Half-edges have other numbers
+/// here: 3t + k is the half-edge opposite corner k, so corners[h] is the vertex that h sees.
+/// Whatever lies beyond the triangles has half-edges too, so that pairing needs no tests: `outside`
+/// is the far side of all edges of the loops, and after it come the far sides of closed edges, two
+/// by two. If the edge of half-edges h and g is closed, with far sides c and c + 1, then of[h] = c,
+/// of[c] = h, of[g] = c + 1, of[c + 1] = g.
 struct ClosableTwins {
   Buffer<uint32_t> of;   // [at least end]; of[outside] means nothing
   uint32_t outside = 0;  // even, not below the number of half-edges
-  uint32_t end = 0;      // past the far sides of closed edges; both from outside + 2 on
+  uint32_t end = 0;      // past the far sides of closed edges, which begin at outside + 2
 
-  /// No twins and no closed edges, with room for so many of each; what `of` holds is left as it is.
+  /// Forgets all twins and makes room for `halves` half-edges and the far sides of `closed` closed
+  /// edges. The elements of `of` are not cleared.
   void reset(uint32_t halves, uint32_t closed) {
     outside = (halves + 1) & ~1u, end = outside + 2;
     if (of.size() < end + 2 * size_t(closed)) of.resize(end + 2 * size_t(closed));
   }
   void pair(uint32_t h, uint32_t g) { of[h] = g, of[g] = h; }
-  /// Closes the edge of h, which has a twin. Makes room for it.
+  /// Closes the edge of h, which must have a twin. Makes room for its far sides.
   void close(uint32_t h);
-  /// The far sides of one more closed edge, for which there is room: the first, even one.
+  /// Adds the far sides of one closed edge, for which there must be room; returns the first,
+  /// even one.
   uint32_t addClosed() { return end += 2, end - 2; }
   /// Opens all closed edges.
   void open();
-  /// From findTwins' form, and to it, all edges being open.
+  /// Converts from the form of findTwins, and back to it; all edges are open afterwards.
   void fromPlain(ArrayView<const uint32_t> plain);
   void toPlain(ArrayView<uint32_t> plain);
 };
@@ -61,8 +65,8 @@ struct TriangleMesh {
   ArrayView<const Point2> metric;  // [n] the same within the range of base/predicates: for angles
   std::vector<uint32_t> corners;   // [3m]
   std::vector<uint32_t> twins;     // [3m]
-  // [n] for each vertex a half-edge that starts there, whose edge is kept whatever flips and splits
-  // do elsewhere; or empty.
+  // [n] for each vertex a half-edge that starts there; or empty. Flips and splits of other edges
+  // renumber it, but keep its edge.
   std::vector<uint32_t> edgeFrom;
   std::vector<uint32_t> unused;  // triangles no longer in use, all three corners kNone
 
@@ -73,7 +77,7 @@ struct TriangleMesh {
   bool inUse(uint32_t t) const { return corners[3 * t] != kNone; }
   /// A new triangle without twins: its first half-edge.
   uint32_t create(uint32_t a, uint32_t b, uint32_t c);
-  /// Gives a triangle up. Its neighbours' twins are not changed.
+  /// Frees a triangle. The twins of its neighbours are not changed.
   void discard(uint32_t t);
   /// Sets edgeFrom: at the boundary the half-edge without a twin, elsewhere any.
   void findEdges();
@@ -87,17 +91,18 @@ struct TriangleMesh {
   /// Whether the apex across h lies inside the circle through the triangle of h, and the two
   /// triangles form a strictly convex quadrilateral; false if there is no twin.
   bool isIllegal(uint32_t h) const;
-  /// Replaces h by the other diagonal of its quadrilateral, which has to be strictly convex. With
-  /// g the twin of h, next(h) and next(g) become the new diagonal; h and g, which keep their first
-  /// vertices, and the half-edges before them become the sides.
+  /// Replaces the edge of h by the other diagonal of its quadrilateral, which must be strictly
+  /// convex. If g is the twin of h, next(h) and next(g) become the new diagonal. The other four
+  /// half-edges become the sides; h and g keep their first vertices.
   void flip(uint32_t h);
-  /// Divides the triangle of h by vertex v strictly inside it: h stays, with apex v, and two
+  /// Divides the triangle of h by a vertex v strictly inside it: h stays, with apex v, and two
   /// triangles are created.
   void splitTriangle(uint32_t h, uint32_t v);
-  /// Divides edge h, which has a twin, by vertex v strictly inside it; two triangles are created.
+  /// Divides edge h, which must have a twin, by a vertex v strictly inside it;
+  /// creates two triangles.
   void splitEdge(uint32_t h, uint32_t v);
-  /// One of the two, where `place` says that v lies; the edges opposite v are appended to
-  /// `opposite`.
+  /// Where a vertex v lies. insert() splits the triangle or the edge there, and appends the edges
+  /// opposite v to `opposite`.
   struct Place {
     uint32_t edge = kNone;  // v is in the triangle of this half-edge; kNone: not found
     bool onEdge = false;    // v lies on the edge itself
@@ -111,10 +116,10 @@ struct TriangleMesh {
   }
 };
 
-/// Flips illegal edges until none is left among `edges` and those that flips then call in question,
-/// or until `budget` flips are done. Empties `edges`; returns how many flips were left.
-/// Flips are final in the sense of Lawson: any order ends, with constrained Delaunay triangles if
-/// all edges were given; after few flips most of the gain in angles is made.
+/// Flips illegal edges until none is left among `edges` and those that flips put in question, or
+/// until `budget` flips are done. Empties `edges`; returns how many flips are left of the budget.
+/// By Lawson's theorem any order of flips ends; if all edges were given, the triangles are then
+/// constrained Delaunay. The first few flips bring most of the gain in angles.
 uint32_t legalize(TriangleMesh& mesh, std::vector<uint32_t>& edges, uint32_t budget, Work& work);
 
 }  // namespace sf

@@ -1,4 +1,4 @@
-// A problem as the solver takes it, and how its numbering leads back to the caller's.
+// A problem in the solver's form, and the way back from its numbering to the caller's.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace sf {
 
-/// Loops at unit size, perhaps with inserted vertices, numbered loop by loop. The result numbers them
-/// otherwise: the caller's vertices first, in his order, then the inserted ones.
+/// Loops at unit size, perhaps with inserted vertices, numbered loop by loop. The result has
+/// another numbering: the caller's vertices first, in the caller's order, then the inserted ones.
 struct PosedProblem {
   LoopSet loops;
   std::vector<uint32_t> resultIndex;     // [n'] number in the result
@@ -18,11 +18,12 @@ struct PosedProblem {
   std::vector<InsertedVertex> inserted;  // [n' - n]
   std::vector<Vec3> insertedPositions;   // [n' - n] in the caller's units
 
-  /// The triangles of an earlier result that have no vertices but these, as triangles of these loops.
+  /// Those triangles of an earlier result whose vertices all exist here,
+  /// in the numbers of these loops.
   ///   triangles  [3m] in the result's numbers
   LoopTriangles fromResult(ArrayView<const uint32_t> triangles) const;
-  /// A surface over these loops as one over the caller's: each inserted vertex becomes the end of its
-  /// edge that it is nearer to, and triangles that have no area left are dropped.
+  /// Turns a surface over these loops into one over the caller's: each inserted vertex becomes the
+  /// nearer end of its edge, and triangles left without area are dropped.
   ///   triangles  [3m] in the result's numbers
   ///   input      the caller's loops, at any size
   LoopTriangles ontoInput(ArrayView<const uint32_t> triangles, const LoopSet& input) const;
@@ -32,7 +33,7 @@ struct PosedProblem {
 ///   normals  [3n] or empty
 PosedProblem posedAsGiven(const LoopSet& unit, ArrayView<const double> normals);
 
-/// The caller's loops after edge protection; the parts of an edge have the face across the whole edge.
+/// The caller's loops after edge protection. A face across an edge is across all parts of the edge.
 PosedProblem posedProtected(const LoopSet& unit, ArrayView<const double> normals,
                             const ScaledWeights& weights, ProtectedLoops protectedLoops);
 

@@ -38,7 +38,7 @@ Span answerOf(const LoopSet& input, const ScaledWeights& weights, Objective obje
   terms.own = weights.cost(terms.own);
   terms.area = std::ldexp(terms.area, 2 * weights.lengthExponent);
   terms.perimeter = weights.length(terms.perimeter);
-  // Sums in another order differ in the last digits: that alone makes no gap.
+  // Sums in another order differ in the last digits: that is no gap.
   const double bound = isSum ? weights.cost(surface.lowerBound) : surface.lowerBound;
   span.lowerBound = isSum && surface.optimal ? span.cost : std::min(span.cost, bound);
   return span;

@@ -20,16 +20,16 @@ struct Span {
   std::vector<InsertedVertex> inserted;  // [n' - n]
   SpanTerms terms;
   double cost = 0;        // what the objective measures: weighted sum, or the largest angle
-  double lowerBound = 0;  // proven; within 1e-10 of the cost when optimal, the same for sums
+  double lowerBound = 0;  // proven; if optimal, the cost itself for sums, else within 1e-10 of it
   bool optimal = false;   // proven to be the least in `space`
   uint64_t candidates = 0, domains = 0, minimalSets = 0;
 };
 
-/// A surface as the solver finds it.
+/// A surface in the solver's numbers and units.
 struct SolvedSurface {
   const std::vector<uint32_t>& order;  // candidates, each but the first beside an earlier one
   bool optimal;                        // proven
-  double lowerBound;                   // proven, of the objective by the scaled weights
+  double lowerBound;                   // proven, of the objective with the scaled weights
 };
 
 /// The surface in the caller's numbers and units.
@@ -39,13 +39,13 @@ Span answerOf(const LoopSet& input, const ScaledWeights& weights, Objective obje
               const PosedProblem& problem, const CandidateSet& set, const SolvedSurface& surface,
               ArrayView<const double> own);
 
-/// The best of the answers from several spaces: the cheapest, and of those that cost the same, the last
-/// one, which is from the widest space; but no unproven one in place of one that is proven.
+/// The best of the answers from several spaces: the cheapest. Of equally cheap ones it is the last,
+/// which is from the widest space, but an unproven one does not replace a proven one.
 class BestAnswer {
  public:
   explicit BestAnswer(Objective objective) : objective_(objective) {}
   void offer(const Span& answer);
-  /// Not found while there is none.
+  /// `found` is false while there is none.
   const Span& get() const { return best_; }
 
  private:

@@ -21,7 +21,7 @@ void windConsistently(const LoopSet& loops, const CandidateSet& set,
   sf::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
     return a.edge < b.edge || (a.edge == b.edge && a.triangle < b.triangle);
   });
-  // The sign with which an increasing triple passes its edge from the lower to the higher end.
+  // Whether an increasing triple passes its edge from the lower to the higher end.
   auto passesForward = [&](uint32_t t, uint32_t edge) {
     return set.triangleEdges[3 * size_t(t) + 1] != edge;
   };

@@ -1,4 +1,4 @@
-// What a list of candidates is as a surface: wound alike, and measured term by term.
+// Winds the triangles of a surface alike, and measures the surface term by term.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -16,8 +16,8 @@ struct SpanTerms {
   double own = 0;            // sum of the candidates' own weights
 };
 
-/// Turns the triangles of a surface so that neighbours agree, and the first triangle with an edge of the
-/// first loop passes it forward.
+/// Turns the triangles of a surface so that neighbours agree, and that the first triangle with an
+/// edge of the first loop passes this edge forward.
 ///   triangles  [m] numbers in the set, of a connected, orientable surface with all loop edges
 ///   wound      [3m] out
 void windConsistently(const LoopSet& loops, const CandidateSet& set,

@@ -11,7 +11,7 @@
 namespace sf {
 namespace {
 
-/// Limits of cost to look below, one after the other.
+/// How many limits of cost are tried, one after the other.
 constexpr int kLimits = 4;
 
 /// The loop edge with the fewest triangles, by its first vertex: the fewest splits at the root.
@@ -25,7 +25,7 @@ uint32_t chooseRoot(const LoopSet& loops, const CandidateSet& set) {
   return root;
 }
 
-/// Where the exact solver begins, or that there is no surface.
+/// Finds where the exact solver begins. False, with the bound infinite, if there is no surface.
 bool findRoot(const Task& task, uint32_t& root, Optimum& optimum) {
   optimum = {};
   root = chooseRoot(task.loops, task.set);
@@ -134,7 +134,7 @@ bool solveWithin(const Task& task, FanEstimate& estimate, const std::vector<doub
       SplitOrder order;
       if (!solveExactly(pass, bound, root, limit, cost, order, counts)) break;
       if (cost < optimum.cost) optimum.cost = cost, optimum.order = std::move(order);
-      // All surfaces that cost no more than the limit were there to be found.
+      // All surfaces that cost no more than the limit could be found.
       optimum.reached = optimum.cost <= limit;
       optimum.lowerBound = std::max(optimum.lowerBound, std::min(optimum.cost, limit));
     }

@@ -10,7 +10,7 @@
 
 namespace sf {
 
-/// The optimum of a task, if it was reached; a surface, perhaps, if not.
+/// The optimum of a task; or, if it was not reached, perhaps some surface.
 struct Optimum {
   bool reached = false;
   double cost = kInfinity;         // infinity: there is no surface, or none that is cheap enough
@@ -24,16 +24,17 @@ struct SolverCounts {
 
 constexpr uint64_t kUnlimited = ~uint64_t(0);
 
-/// Solves a task by the domains of all its candidates, unless that takes more than `maxSplits`
-/// splits (several loops only), which leaves `optimum.reached` false. False when the work ended.
-///   incumbent  cost of a surface that is known, only to be told of
+/// Solves a task by the domains of all its candidates. Gives up after `maxSplits` splits (several
+/// loops only), and leaves `optimum.reached` false. False when the work ended.
+///   incumbent  cost of a known surface, used only to report progress
 bool solveDirectly(const Task& task, uint64_t maxSplits, double incumbent, Optimum& optimum,
                    SolverCounts& counts);
 
-/// Solves a task of sums over several loops by those of its domains that a surface of at most `most`
-/// (finite) can have, looking for cheaper ones first, unless that takes more than `maxSplits` splits.
-/// Reached, without a surface: none costs `most` or less. False when the work ended.
-///   estimate  of the same set and measure, at costs none of which exceeds the task's
+/// Solves a task of sums over several loops. Visits only domains that a surface of cost `most`
+/// (finite) or less can have, and looks for cheaper surfaces first. Gives up after `maxSplits`
+/// splits. If `reached` is true without a surface, none costs `most` or less.
+/// False when the work ended.
+///   estimate   of the same set and measure, with triangle costs that nowhere exceed the task's
 ///   leastPair  see lower_bound.h
 bool solveWithin(const Task& task, FanEstimate& estimate, const std::vector<double>& leastPair,
                  double most, uint64_t maxSplits, Optimum& optimum, SolverCounts& counts);
@@ -41,10 +42,12 @@ bool solveWithin(const Task& task, FanEstimate& estimate, const std::vector<doub
 /// Candidates for each triangle of a surface.
 double candidatesPerTriangle(const LoopSet& loops, const CandidateSet& set);
 
-/// Whether the candidates are many for the surface, so that whatever looks at each of them is slow.
+/// Whether there are so many candidates for each triangle of a surface that looking at all of them
+/// is slow.
 bool isLarge(const LoopSet& loops, const CandidateSet& set);
 
-/// Whether two loops have edges from one to the other nearly everywhere, so that vertex fans tell little.
+/// Whether there are two loops, and edges join at least a quarter of all pairs of their vertices.
+/// Bounds by vertex fans are poor then.
 bool isDense(const LoopSet& loops, const CandidateSet& set);
 
 }  // namespace sf

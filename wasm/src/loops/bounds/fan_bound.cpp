@@ -49,8 +49,8 @@ double FanBound::bytesFor(const LoopSet& loops, const CandidateSet& set) {
   return bytes;
 }
 
-/// At most how far rounding has lifted a bound. Large terms cancel in a cheap walk only if some of
-/// them are negative: those, and the bound itself, say how large partial sums can be.
+/// The most by which rounding has lifted a bound. Large terms cancel in a cheap walk only if some
+/// of them are negative: so these, and the bound itself, limit the size of partial sums.
 double FanBound::rounding(double bound) const {
   const double terms = 3 * triangleTotal_;
   double most = std::max(std::fabs(price_), 0.5 * kPi * measure_.dihedralWeight());
@@ -77,8 +77,8 @@ uint32_t FanBound::arrivedFrom(const Vertex& v, const double* arrive, uint32_t l
   return from;
 }
 
-/// Labels of the cheapest walks of each length at a vertex: in walks_ to each spoke, in cheapest_ to
-/// the loop edge where fans end. Prices of triangles are left out.
+/// Labels of the cheapest walks of each length at a vertex: those to each spoke in walks_, those to
+/// the loop edge where fans end in cheapest_. Prices of triangles are left out.
 void FanBound::labelWalks(uint32_t vertex) {
   const Vertex& v = links_.vertices[vertex];
   double* cheapest = &cheapest_[labels_[vertex].firstCheapest];
@@ -102,8 +102,8 @@ void FanBound::labelWalks(uint32_t vertex) {
   }
 }
 
-/// Chooses the length of each vertex's walk such that the total is right and the cost is least, as
-/// far as a price on length can tell: the best price, and the cost with it.
+/// Chooses the length of each vertex's walk so that the total is right. The cost is the least that
+/// a price on length can reach: finds the best price, and returns the cost with it.
 double FanBound::shareOut() {
   const double wanted = 3 * triangleTotal_;
   // Sum of lengths of the walks that are cheapest at a price; the shortest or longest of ties.
@@ -186,7 +186,7 @@ void FanBound::gradient() {
 
 bool FanBound::ascend(uint32_t steps, double target) {
   if (stride_ == 0) {
-    // The first aim is of the size of what a surface of middling triangles costs.
+    // The first aim is a share of what a surface of average triangles would cost.
     double sum = 0;
     size_t count = 0;
     for (const double third : third_)
@@ -227,8 +227,8 @@ bool FanBound::ascend(uint32_t steps, double target) {
       dd += direction_[j] * direction_[j];
     }
     if (gg < 1e-12 || best_ >= target || stride_ < kShortestStride * std::fabs(best_)) return true;
-    // Deflection (Camerini, Fratta, Maffioli 1975): no step undoes the last one. Where that would
-    // turn it against the gradient, the last one went too far, and the gradient alone serves.
+    // Deflection (Camerini, Fratta, Maffioli 1975): no step undoes the last one. If that would turn
+    // the step against the gradient, the last one went too far, and only the gradient counts.
     const double keep = gd < 0 && 1.5 * gd * gd < gg * dd ? -1.5 * gd / dd : 0;
     dd = 0;
     for (size_t j = 0; j < gradient_.size(); ++j) {

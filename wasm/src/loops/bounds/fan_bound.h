@@ -1,16 +1,16 @@
 // A lower bound on all surfaces from what happens around single vertices.
-// Source: none in Zou, Ju, Carr 2013. Lagrangian decomposition (Guignard, Kim 1987) with subgradient
-// ascent, for a property that the paper's surfaces have: the triangles at a vertex form one fan, from
-// the one loop edge there to the other.
+// Source: none in Zou, Ju, Carr 2013. Lagrangian decomposition (Guignard, Kim 1987) with
+// subgradient ascent, for a property that the paper's surfaces have: the triangles at a vertex form
+// one fan, from the one loop edge there to the other.
 //
-// Half of each dihedral angle belongs to either end of its edge, a third of each triangle's weight to
-// each corner. Then the cost of a surface is the sum of the costs of its n fans, and the cheapest
-// walks from loop edge to loop edge in the n vertex links bound it from below, of all choices with
-// n + 2k - 4 triangles in total. Fans that are chosen by themselves disagree: a triangle is used at
-// one corner but not at another. Multipliers that sum to zero over the corners of each triangle charge
-// for that without changing the cost of any surface. For dihedral weights the bound so found is the
-// optimum itself, or within a few per cent of it, at a price that grows with the number of
-// candidates and not with that of domains.
+// Give half of each dihedral angle to either end of its edge, and a third of each triangle's weight
+// to each corner. Then a surface costs as much as its n fans together. Choose a walk from loop edge
+// to loop edge in each of the n vertex links, with 3 (n + 2k - 4) triangles in total: the cheapest
+// choice bounds the surfaces from below. Fans chosen one by one disagree: a triangle is used at one
+// corner but not at another. Multipliers that sum to zero over the corners of each triangle charge
+// for that, and do not change the cost of any surface. For dihedral weights the bound is the
+// optimum itself, or within a few per cent of it. Its price grows with the number of candidates,
+// not with that of domains.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -26,7 +26,7 @@ namespace sf {
 
 class FanBound {
  public:
-  /// For sums only. Charges what it takes, mostly the labels of all walks: see bytesFor.
+  /// For sums only. Charges its memory, mostly labels of walks: see bytesFor.
   FanBound(const LoopSet& loops, const CandidateSet& set, const std::vector<double>& triangleCost,
            Measure measure, Work& work);
 
@@ -35,17 +35,19 @@ class FanBound {
   ///   target  cost of a known surface, or infinity
   bool ascend(uint32_t steps, double target);
 
-  /// No surface costs less. Infinity if some vertex has no fan: there is no surface.
+  /// No surface costs less. Infinity if some vertex has no fan: then there is no surface.
   double lowerBound() const { return best_; }
 
-  /// What fans cost where the bound is best, to see by it which triangles and domains are dear.
+  /// The costs of fans at which the bound is best.
+  /// They show which triangles and domains are too dear.
   FanCosts costs() const;
   const FanLinks& links() const { return links_; }
 
   /// About how many nanoseconds a step of ascent takes.
   double timeOfStep() const { return kTimeOfLabel * double(walks_.size()); }
 
-  /// Grows with the square of the number of edges at a vertex, so that hubs make it large.
+  /// Bytes that it takes. Grows with the square of the number of edges at a vertex, so that hubs
+  /// make it large.
   static double bytesFor(const LoopSet& loops, const CandidateSet& set);
 
  private:
@@ -69,7 +71,7 @@ class FanBound {
   Measure measure_;
   Work& work_;
   Charge memory_;
-  double triangleTotal_;            // n + 2k - 4
+  double triangleTotal_;            // n + 2k - 4, the triangles of a surface
   std::vector<double> third_;       // [c] a third of w(t)
   std::vector<double> multiplier_;  // [3c]
   std::vector<double> bestMultiplier_;

@@ -18,8 +18,8 @@ FanEstimate::FanEstimate(const LoopSet& loops, const FanLinks& links,
       // Half of an angle belongs to either end of its edge.
       transform_(Measure::sum(0.5 * measure.dihedralWeight(), measure.cap())) {}
 
-/// The cheapest walks from an edge to each spoke. What arrive holds at first is not looked at, but
-/// leaving_ is: what it costs to set out into each spoke of the edge.
+/// The cheapest walks from an edge to each spoke. `arrive` is only written; leaving_ holds the cost
+/// of setting out into each spoke of the edge.
 void FanEstimate::walk(const Vertex& v, uint32_t fromEdge, double* arrive) {
   const uint32_t n = v.spokeCount;
   const FanLinks::Spoke* spokes = &links_.spokes[v.firstSpoke];
@@ -98,7 +98,7 @@ void FanEstimate::excess(std::vector<double>& excess) const {
       const FanLinks::Edge& end = links_.edges[v.firstEdge + v.endEdge];
       return v.endEdge != kNone && s >= end.firstSpoke && s < end.firstSpoke + end.spokeCount;
     };
-    // A fan with the triangle arrives at one of its two spokes, and goes on from there or ends.
+    // A fan with this triangle arrives at one of its two spokes, and goes on from there or ends.
     for (uint32_t s = 0; s < v.spokeCount; ++s) {
       double& least = through[spokes[s].corner / 3];
       least = std::min(least, fromStart_.arrive[v.firstSpoke + s] +
@@ -118,7 +118,7 @@ const FanEstimate::Walks& FanEstimate::walksAcross(uint32_t vertex, uint32_t fro
   const Vertex& v = links_.vertices[vertex];
   Walks& walks = across_[v.firstEdge + fromEdge];
   if (!walks.arrive.empty()) return walks;
-  // Beyond the limit of memory the work ends at the next tick; these few more do no harm.
+  // Beyond the memory limit the work ends at the next tick; these few bytes more do no harm.
   memory_.add(8 * (2 * size_t(v.spokeCount) + v.edgeCount));
   walks.arrive.resize(v.spokeCount);
   walks.turned.resize(v.spokeCount);
@@ -132,8 +132,8 @@ const FanEstimate::Walks& FanEstimate::walksAcross(uint32_t vertex, uint32_t fro
   return walks;
 }
 
-/// From a loop edge at v to a spanning edge. accessIndex: of the access triangle among those at the
-/// edge, kNone for another spanning edge.
+/// The part of a fan from a loop edge at v to a spanning edge. accessIndex: the access triangle's
+/// place at the edge, kNone for another spanning edge.
 double FanEstimate::partOfFan(uint32_t vertex, uint32_t edge, bool fromStart,
                               uint32_t accessIndex) const {
   const Vertex& v = links_.vertices[vertex];
@@ -143,7 +143,7 @@ double FanEstimate::partOfFan(uint32_t vertex, uint32_t edge, bool fromStart,
   return walks.turned[v.firstSpoke + links_.edges[v.firstEdge + at].firstSpoke + accessIndex];
 }
 
-/// Between two spanning edges at v.
+/// The part of a fan between two spanning edges at v.
 double FanEstimate::fanBetween(uint32_t vertex, uint32_t first, uint32_t next, uint32_t firstAccess,
                                uint32_t nextAccess) {
   if (firstAccess != kNone) std::swap(first, next), std::swap(firstAccess, nextAccess);

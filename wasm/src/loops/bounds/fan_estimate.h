@@ -1,9 +1,11 @@
-// What a domain costs at least, from the fans inside it: in place of R where R would be too much.
-// Source: none in Zou, Ju, Carr 2013. The bound of fan_bound.h, for the part of a surface that fills a
-// domain: whole fans at the vertices inside its segments and on its holes, parts of fans at the
-// ends of its segments, between a loop edge and a spanning edge or between two of these. The multipliers
-// of a triangle still sum to zero, since all three of its corners lie in the domain, and the number of
-// triangles follows from the domain's shape, so that their price is known.
+// A lower bound on the cost of a domain, from the fans inside it: for use where R (relaxed_bound.h)
+// would take too long.
+// Source: none in Zou, Ju, Carr 2013. The bound of fan_bound.h, for the part of a surface that
+// fills a domain. That part has whole fans at the vertices inside the domain's segments and on its
+// holes. At the ends of segments it has parts of fans: between a loop edge and a spanning edge, or
+// between two spanning edges. The multipliers of a triangle still sum to zero, since all three of
+// its corners lie in the domain. The number of triangles follows from the domain's shape, so their
+// price is known.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -14,45 +16,47 @@
 
 namespace sf {
 
-/// Costs of fans at which a bound was found.
+/// Costs of fans for which a bound was found.
 struct FanCosts {
   std::vector<double> corner;  // [3c] a third of w(t), multiplier, and price
-  double price = 0;            // what each corner of a triangle has been charged
+  double price = 0;            // the price charged at each corner of a triangle
   double lowerBound = 0;       // on all surfaces
-  double rounding = 0;         // at most how far rounding lifts what is found at these costs
+  double rounding = 0;         // the most by which rounding lifts bounds found with these costs
 };
 
 class FanEstimate {
  public:
-  /// `links` and `leastPair` (lower_bound.h) are of the same set and measure, and are kept.
+  /// `links` and `leastPair` (lower_bound.h) are of the same set and measure,
+  /// and have to outlive it.
   FanEstimate(const LoopSet& loops, const FanLinks& links, const std::vector<double>& leastPair,
               Measure measure, FanCosts costs, Work& work);
 
-  /// The cheapest walks from both loop edges at each vertex; before anything else. O(candidates times
-  /// the edges at a vertex). False when the work ended.
+  /// Finds the cheapest walks from both loop edges at each vertex. Must be called first.
+  /// O(candidates times the edges at a vertex). False when the work ended.
   bool compute();
 
-  /// excess [c]: a surface that uses triangle t costs at least lowerBound() + excess[t]. Infinity for
-  /// triangles that no fan can use.
+  /// excess [c]: a surface that uses triangle t costs at least lowerBound() + excess[t]. Infinity
+  /// for triangles that no fan can use.
   void excess(std::vector<double>& excess) const;
 
-  /// A lower bound, but for rounding(), on what a domain costs in any surface that has it, the slot's
-  /// triangle being its access triangle: as LowerBound::value. It may exceed R, which allows what is no
-  /// surface. O(segments), once the walks that it needs are known.
+  /// A lower bound on what a domain costs in any surface that has it, with the slot's triangle as
+  /// access triangle, as LowerBound::value. Rounding may lift it by up to rounding(). It may exceed
+  /// R, since R allows fillings that are no surface. O(segments),
+  /// once the walks that it needs are known.
   /// Precondition: lowerBound() is finite.
   double value(Shape shape, uint32_t slot);
 
-  /// Triangles of whatever fills a domain.
+  /// The number of triangles that fill a domain.
   uint32_t triangleCount(Shape shape) const;
 
   double lowerBound() const { return costs_.lowerBound; }
   double rounding() const { return costs_.rounding; }
 
  private:
-  /// Labels by spoke: of walks that arrive there, and of those that have turned over the edge.
+  /// Labels by spoke: of walks that arrive there, and of walks that have turned over its edge.
   struct Walks {
     std::vector<double> arrive, turned;
-    std::vector<double> edge;  // by edge: least, with the least bi-triangle weight that closes it
+    std::vector<double> edge;  // by edge: the cheapest walk, closed by the least bi-triangle weight
   };
   using Vertex = FanLinks::Vertex;
 
@@ -73,9 +77,9 @@ class FanEstimate {
   Domains domains_;
   AngularTransform transform_;
   Walks fromStart_, fromEnd_;      // at all vertices, one after the other
-  std::vector<Walks> across_;      // by edge at a vertex, where they begin; empty until needed
-  std::vector<double> fan_;        // [n] the cheapest
-  std::vector<double> fansUntil_;  // [n + 1] sums of those before each vertex
+  std::vector<Walks> across_;      // by edge at a vertex where they begin; empty until needed
+  std::vector<double> fan_;        // [n] the cheapest fan at each vertex
+  std::vector<double> fansUntil_;  // [n + 1] sums of the fans before each vertex
   std::vector<double> leaving_;    // scratch
 };
 

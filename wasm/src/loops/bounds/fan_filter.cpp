@@ -38,8 +38,8 @@ bool FanFilter::passes(uint32_t slot, uint32_t other) const {
          dihedralAngle(set_.slotTheta[slot], set_.slotTheta[other]) <= cap_;
 }
 
-/// Which spokes walks come to: forward from the triangles at the loop edge before each vertex, out of
-/// which they leave; backward from those at the loop edge after it.
+/// Marks the spokes that walks reach. Forward walks begin at the triangles at the loop edge before
+/// each vertex and leave out of them; backward walks begin at those at the loop edge after it.
 bool FanFilter::walk(bool backward, std::vector<uint8_t>& reached) {
   reached.assign(2 * set_.slotTriangle.size(), 0);
   queue_.clear();
@@ -53,7 +53,8 @@ bool FanFilter::walk(bool backward, std::vector<uint8_t>& reached) {
       if (alive_[set_.slotTriangle[s]]) reach(backward ? spoke(s, v) : partner(spoke(s, v)));
   }
   for (size_t i = 0; i < queue_.size(); ++i) {
-    // Forward: on across the edge that the walk leaves by. Backward: across the one it came in by.
+    // Forward: across the edge by which the walk leaves. Backward:
+    // across the one by which it came in.
     const uint32_t across = backward ? partner(queue_[i]) : queue_[i];
     const uint32_t slot = across / 2, edge = edgeOfSlot_[slot], v = vertexOf(across);
     if (set_.isLoopEdge[edge]) continue;
@@ -85,7 +86,7 @@ bool FanFilter::filter(double cap, std::vector<uint32_t>& kept) {
     }
   }
   for (uint32_t v = 0; v < loops_.vertexCount(); ++v) {
-    // Without a fan at some vertex there is no surface, whatever else is left.
+    // If some vertex has no fan there is no surface, whatever else is left.
     const uint32_t edge = set_.loopEdges[v];
     bool any = false;
     for (uint32_t s = edge == kNone ? 0 : set_.edgeSlots[edge];

@@ -1,7 +1,7 @@
-// The triangles that a surface without large dihedral angles can have, from what happens around
+// Finds the triangles that a surface without large dihedral angles can have, by looking around
 // single vertices.
-// Source: none in Zou, Ju, Carr 2013. As fan_bound.h, for the largest angle in place of the sum: the
-// triangles at a vertex form one fan, from the one loop edge there to the other.
+// Source: none in Zou, Ju, Carr 2013. Like fan_bound.h, for the largest angle in place of the sum:
+// the triangles at a vertex form one fan, from the one loop edge there to the other.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -18,15 +18,15 @@ class FanFilter {
   FanFilter(const LoopSet& loops, const CandidateSet& set, const std::vector<double>& triangleCost,
             Work& work);
 
-  /// Keeps the triangles that are, at each of their corners, in some fan of triangles that are kept,
-  /// without an angle above `cap`. All triangles of all surfaces without such an angle are among
-  /// them; if none is left, there is no such surface. False when the work ended.
-  /// Time: candidates times their neighbours, for each time that some of them go.
+  /// Keeps a triangle if each of its corners has a fan through it, made of kept triangles and
+  /// without an angle above `cap`. All surfaces without such an angle consist of kept triangles; if
+  /// none is kept, there is no such surface. False when the work ended.
+  /// Time: candidates times their neighbours, for each round in which some are dropped.
   ///   kept  triangles, increasing
   bool filter(double cap, std::vector<uint32_t>& kept);
 
-  /// An angle below which the largest one of no surface is, at most `best` and to within 1e-3 rad as
-  /// good as the filter can tell. False when the work ended.
+  /// A lower bound on the largest angle of every surface: at most `best`, and within 1e-3 rad of
+  /// the best bound that the filter can prove. False when the work ended.
   bool bound(double best, double& lowerBound);
 
  private:

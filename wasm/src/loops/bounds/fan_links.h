@@ -1,6 +1,5 @@
-// The links of the vertices: which candidate triangles stand around a vertex, edge by edge. The
-// triangles that a surface has at a vertex are a walk there, its *fan*, from the one loop edge to the
-// other.
+// The link of each vertex: the candidate triangles around it, edge by edge. The triangles that a
+// surface has at a vertex form a walk in its link, the *fan*, from one loop edge to the other.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -30,16 +29,16 @@ struct FanLinks {
     uint32_t longest;             // most triangles that a fan can have here
   };
 
-  /// O(c) for c candidates; the set is kept.
+  /// O(c) for c candidates. The set has to outlive it.
   FanLinks(const LoopSet& loops, const CandidateSet& set);
 
-  /// Where an edge of the set stands among those of v, one of its ends.
+  /// Where an edge of the set stands among the edges of v, one of its ends.
   uint32_t edgeAt(uint32_t edge, uint32_t v) const {
     return edgeAt_[2 * size_t(edge) + (set.edgeVertices[2 * size_t(edge)] == v ? 0 : 1)];
   }
-  /// out[s] = the least over the edge's spokes of arriving there and turning over into s, for all
-  /// spokes of the vertex. Turning back into the same triangle costs a fold, which only loosens what is
-  /// a bound. Infinity at loop edges, where fans end.
+  /// For each spoke s of the vertex: out[s] = the least cost of arriving at a spoke of the same
+  /// edge and turning over the edge into s. A turn back into the same triangle costs a fold;
+  /// allowing it only loosens the bound. Infinity at loop edges, where fans end.
   void leave(const Vertex& v, const double* arrive, AngularTransform& transform, double* out) const;
 
   const CandidateSet& set;

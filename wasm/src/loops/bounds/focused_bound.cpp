@@ -15,7 +15,7 @@ FocusedBound::FocusedBound(const Pass& pass, const std::vector<double>& leastPai
       arena_(pass.work),
       transform_(pass.measure) {}
 
-/// The node of a domain, to be visited in this round; kNone when memory has run out.
+/// The node of a domain, which this round will visit; kNone when memory has run out.
 uint32_t FocusedBound::reach(ArrayView<const uint32_t> key) {
   const uint32_t node = table_.insert(key);
   if (node == kNone) return kNone;
@@ -37,7 +37,8 @@ uint32_t FocusedBound::reach(ArrayView<const uint32_t> key) {
   return node;
 }
 
-/// Takes up one split by triangle t, the index-th at the access edge, or keeps what it costs in `dear` if that is too much.
+/// Takes up one split by triangle t, the index-th at the access edge. If it is too dear, keeps its
+/// cost in `dear`.
 bool FocusedBound::addSplit(const Split& split, uint32_t t, uint32_t index, double outside,
                             double& dear) {
   const CandidateSet& set = pass_.set;
@@ -101,7 +102,7 @@ bool FocusedBound::visit(uint32_t node, uint64_t& splitsLeft) {
   bool good = true;
   for (uint32_t i = 0; i < degree && good; ++i) {
     const uint32_t t = set.slotTriangle[begin + i];
-    // A triangle that no angle to those outside allows yet has to be known for others.
+    // Even if no angle to the triangles outside allows this one yet, others may need its cost.
     if (pass_.triangleCost[t] == kInfinity) continue;
     domains_.forEachSplit(shape, set.slotApex[begin + i], [&](const Split& split) {
       if (splitsLeft == 0 || !pass_.work.tick(800)) return good = false;
@@ -112,7 +113,7 @@ bool FocusedBound::visit(uint32_t node, uint64_t& splitsLeft) {
   return good && pass_.work.going();
 }
 
-/// What is now known of the inside of a domain, all of its parts being known.
+/// Improves what is known of the inside of a domain, once all of its parts are known.
 void FocusedBound::improve(const Visit& visit, size_t endOfEntries) {
   const CandidateSet& set = pass_.set;
   const uint32_t edge = accessEdge(set, domains_, table_.key(visit.node));
@@ -154,7 +155,8 @@ bool FocusedBound::compute(ArrayView<const uint32_t> root, double most, uint64_t
   bySize_.assign(size_t(estimate_.triangleCount(root)) + 1, kNone);
   if (reach(root) == kNone) return false;
   for (size_t size = bySize_.size(); size-- > 0;) {
-    // Parts are smaller than their domain, so that all of one size are there, and all they have outside.
+    // Parts are smaller than their domain. So all domains of this size exist, with all that is
+    // outside of them.
     for (uint32_t node = bySize_[size]; node != kNone; node = nodes_[node].next)
       if (!visit(node, splitsLeft)) return false;
   }

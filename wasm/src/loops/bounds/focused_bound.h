@@ -1,13 +1,13 @@
-// R of relaxed_bound.h, only for the domains that a surface of at most a given cost can have: a small
-// part of all where there are many loops.
-// Source: none in Zou, Ju, Carr 2013. Best-first search of AND/OR graphs (Martelli, Montanari 1978),
-// level by level.
+// R of relaxed_bound.h, only for the domains that a surface of at most a given cost can have: a
+// small part of all domains if there are many loops.
+// Source: none in Zou, Ju, Carr 2013. Best-first search of AND/OR graphs (Martelli, Montanari
+// 1978), level by level.
 //
-// Top-down, from domains of more triangles to those of fewer, each knows what all that is outside of it
-// costs at least. With an estimate for what is inside, domains that are too dear together are never made.
-// Bottom-up, the estimates of those that were made become R, as far as it is below the given cost, or
-// better estimates: what was left out counts by its own. So the next time, with a higher limit, fewer
-// domains pass than would have at once.
+// Top-down, from domains of more triangles to those of fewer, each domain gets a lower bound on the
+// cost of everything outside of it. If that and the estimate of its inside are too dear together,
+// the domain is never made. Bottom-up, the estimates of the domains made become R if R is below the
+// given cost, and better estimates otherwise, since splits that were left out count by their own
+// estimates. So when the limit rises, fewer domains pass than would have passed at once.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -28,12 +28,13 @@ class FocusedBound final : public LowerBound {
   /// For sums only. `estimate` and `leastPair` are of the same pass.
   FocusedBound(const Pass& pass, const std::vector<double>& leastPair, FanEstimate& estimate);
 
-  /// Computes R for what surfaces that cost at most `most` have of the root's domains; `most` rises from
-  /// call to call. Takes its splits of domains from `splitsLeft`. False when these are used up, or the
-  /// work ended: then values are bounds as before, but not to be searched by.
+  /// Computes R for those domains of the root that a surface of cost `most` or less can have;
+  /// `most` rises from call to call. Takes its splits of domains from `splitsLeft`. False when
+  /// these are used up or the work ended: values are still bounds then, but the exact solver must
+  /// not search by them.
   bool compute(ArrayView<const uint32_t> root, double most, uint64_t& splitsLeft);
 
-  /// No surface costs less. R of the root, if that is at most what surfaces might cost.
+  /// No surface costs less. It is R of the root if that is at most `most`.
   double rootBound() const override { return rootBound_; }
   /// Infinity for domains that are left out.
   double value(Shape shape, uint32_t slot) override;
@@ -41,12 +42,12 @@ class FocusedBound final : public LowerBound {
   uint64_t domainCount() const { return table_.size(); }
 
  private:
-  /// A domain, by number; both costs by the place of the access triangle at the access edge.
+  /// A domain, by number. Both arrays have one cost for each triangle at the access edge.
   struct Node {
-    double* inside;   // at least, bi-triangle weight included
-    double* outside;  // at least, in this round
+    double* inside;   // lower bounds, bi-triangle weight included
+    double* outside;  // lower bounds, in this round
     uint32_t round;   // when it was last made
-    uint32_t next;    // of as many triangles, kNone after the last
+    uint32_t next;    // node with as many triangles, kNone after the last
   };
   /// A way to split a domain that is not too dear.
   struct Entry {
@@ -60,7 +61,7 @@ class FocusedBound final : public LowerBound {
     size_t firstEntry, firstDear;
   };
   struct Part {
-    uint32_t node = kNone;  // if it is known already
+    uint32_t node = kNone;  // kNone while it is not known
     uint32_t index = 0;
     double inside = 0;
     std::vector<uint32_t> key;  // empty: no domain
@@ -80,7 +81,7 @@ class FocusedBound final : public LowerBound {
   Arena arena_;
   AngularTransform transform_;
   std::vector<Node> nodes_;
-  std::vector<uint32_t> bySize_;  // by triangles: the first node to visit
+  std::vector<uint32_t> bySize_;  // by number of triangles: the first node to visit
   std::vector<Visit> visits_;     // of this round
   std::vector<Entry> entries_;    // by visit
   std::vector<double> dear_;      // by visit and triangle: the cheapest split that was left out

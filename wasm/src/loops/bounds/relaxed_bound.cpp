@@ -33,8 +33,8 @@ void RelaxedBound::findEdges() {
     edgesOfPair_[firstOfPair_[pair(e)] + numberInPair_[e]] = e;
 }
 
-/// The front at `edge` of the domain whose segments key_ holds, but that the two at the ends are given
-/// here; for a domain of one segment both are the same. Block kNone once memory has run out.
+/// The front at `edge` of the domain in key_, with `first` and `last` in place of its outer
+/// segments; for a domain of one segment both are the same. Block kNone once memory has run out.
 RelaxedBound::Front RelaxedBound::insertFront(Segment first, Segment last, uint32_t edge) {
   const uint32_t m = domains_.segmentCount(key_), any = Domains::kAnyVertex;
   Whole whole = 0;
@@ -48,7 +48,7 @@ RelaxedBound::Front RelaxedBound::insertFront(Segment first, Segment last, uint3
     domains_.setSegment(key_, m - 1, {last.start, any, last.reversed, false});
     mirrored = domains_.makeCanonical(key_);
     if (mirrored) std::swap(first, last), whole = (whole >> 1) | ((whole & 1) << 1);
-    // A single vertex is passed in either direction.
+    // A single vertex has no direction.
     if (first.isVertex()) domains_.setForward(key_, 0);
     if (last.isVertex()) domains_.setForward(key_, m - 1);
   }
@@ -59,7 +59,7 @@ RelaxedBound::Front RelaxedBound::insertFront(Segment first, Segment last, uint3
   return frontOf(context, whole, first, edge);
 }
 
-/// The front of a context.
+/// The front at `edge` of a context.
 ///   first  the first segment
 RelaxedBound::Front RelaxedBound::frontOf(uint32_t context, Whole whole, Segment first,
                                           uint32_t edge) {
@@ -81,7 +81,7 @@ RelaxedBound::Front RelaxedBound::frontOf(uint32_t context, Whole whole, Segment
           2 * number + pass_.segments.sideFrom(edge, first.reversed ? first.end : first.start)};
 }
 
-/// Makes a front the domain under work; returns its access edge.
+/// Makes a front the current domain; returns its access edge.
 uint32_t RelaxedBound::readDomain(Front front) {
   const LoopSet& loops = pass_.loops;
   const Block& block = blocks_[front.block];
@@ -152,8 +152,8 @@ bool RelaxedBound::splitAtBoundary(uint32_t slot, uint32_t j) {
   const uint32_t apex = pass_.set.slotApex[slot], m = uint32_t(segments_.size());
   const uint32_t p = segments_.back().end, q = segments_[0].start;
   const Segment s = segments_[j], vertex{apex, apex, false, false};
-  // An edge that spans the domain already would get a third triangle, but where two vertices are
-  // all that is left between it and the new one.
+  // An edge that spans the domain already would get a third triangle, unless only two vertices are
+  // left between it and the new one.
   bool repeats[2] = {false, false};
   for (uint32_t i = 0; i + 1 < m; ++i) {
     const uint32_t a = segments_[i].end, b = segments_[i + 1].start;
@@ -174,7 +174,8 @@ bool RelaxedBound::splitAtBoundary(uint32_t slot, uint32_t j) {
 
 /// All distributions of the holes.
 bool RelaxedBound::splitWith(uint32_t slot, const Part part[2]) {
-  // A part that is closed by a loop edge, or by an edge that spans the domain already, has none.
+  // A part that is closed by a loop edge, or by an edge that spans the domain already,
+  // has no holes.
   bool mayHold[2];
   for (int i = 0; i < 2; ++i)
     mayHold[i] = !part[i].repeats && !pass_.loops.isLoopEdge(part[i].first.start, part[i].last.end);
@@ -217,7 +218,7 @@ bool RelaxedBound::distribute(uint32_t slot, const Part part[2], uint64_t toFirs
   bool isDomain[2];
   for (int i = 0; i < 2; ++i)
     if (!isFilled(part[i], t, holes[i] != 0, entry.cost, isDomain[i])) return true;
-  // A leaf that cannot be filled spares the domain beside it.
+  // If a leaf cannot be filled, the domain beside it is not needed.
   if (entry.cost < kInfinity) {
     for (int i = 0; i < 2; ++i) {
       if (!isDomain[i]) continue;
@@ -233,7 +234,7 @@ bool RelaxedBound::distribute(uint32_t slot, const Part part[2], uint64_t toFirs
 RelaxedBound::Front RelaxedBound::frontOfPart(const Part& part, uint32_t t, uint64_t holes) {
   const uint32_t m = part.to - part.from + 1;
   const uint32_t edge = pass_.set.edgeOpposite(t, part.apexOpposite);
-  // Most parts are what the domain was but for one end of its access edge.
+  // Most parts differ from the domain only in one end of the access edge.
   if (m == segments_.size() && holes == all() && part.first.isVertex() == segments_[0].isVertex() &&
       part.last.isVertex() == segments_.back().isVertex())
     return frontOf(context_, wholeOf(part.first, part.last), part.first, edge);
@@ -272,7 +273,7 @@ bool RelaxedBound::close(const Frame& frame) {
     innerTheta_.push_back(set.slotTheta[begin + i]);
     innerBase_.push_back(best_[i]);
   }
-  // A triangle is met by itself here, which costs it a fold; that only loosens the bound.
+  // Here a triangle can meet itself, which costs it a fold; that only loosens the bound.
   transform_.apply(innerTheta_.data(), innerBase_.data(), innerBase_.size(), &set.slotTheta[begin],
                    degree, values);
   if (frames_.size() == 1) rootBound_ = *std::min_element(best_.begin(), best_.end());
@@ -304,7 +305,8 @@ bool RelaxedBound::compute(ArrayView<const uint32_t> root, uint64_t maxSplits) {
     }
     if (!close(frame)) return false;
     frames_.pop_back();
-    // How much is left shows only at the end; this comes to 0.95 for an ordinary number of splits.
+    // How much work is left is known only at the end;
+    // this comes to 0.95 for an ordinary number of splits.
     if (domainCount_ % 64 == 0)
       pass_.work.setFraction(1 - std::exp(-3 * double(maxSplits - splitsLeft_) / expectedSplits));
   }

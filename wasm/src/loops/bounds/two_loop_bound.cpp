@@ -100,7 +100,7 @@ bool TwoLoopBound::buildIncidences() {
   return true;
 }
 
-/// What is left to fill before the access edge, with `length` edges of B.
+/// Computes the front before the access edge, with `length` edges of B.
 void TwoLoopBound::computeFront(Context& c, const SpanningEdge& access, uint32_t length) {
   const uint32_t closingPlace = spans_[c.closing].place, q = spans_[c.closing].number;
   const bool whole = length == sizeB_;
@@ -115,7 +115,8 @@ void TwoLoopBound::computeFront(Context& c, const SpanningEdge& access, uint32_t
       at = c.reversed ? q - at : at - q;
       if (at >= sizeB_) at += sizeB_;  // below 0
     }
-    // The access triangle is outside of the front; at the closing edge's ends there are both kinds.
+    // The access triangle is outside of the front. At the ends of the closing edge there are
+    // triangles on both sides.
     if (t.isOnA ? at < access.place || at >= closingPlace : at == 0 || at >= length) {
       outerTheta_[outer] = t.theta;
       outer_[outer++] = i;
@@ -218,7 +219,8 @@ uint64_t TwoLoopBound::findContexts(const std::vector<uint32_t>& chords,
   return visits;
 }
 
-/// Case I enters B from its triangle's two spanning edges: one closes, the other is the access edge.
+/// Case I enters B from its triangle's two spanning edges: one closes,
+/// the other is the access edge.
 void TwoLoopBound::keepStarts(const Context& c) {
   const CandidateSet& set = pass_.set;
   const SpanningEdge& closing = spans_[c.closing];
@@ -267,7 +269,7 @@ bool TwoLoopBound::computeWithHole(uint32_t chord) {
 bool TwoLoopBound::compute(uint64_t maxSplits) {
   const CandidateSet& set = pass_.set;
   const size_t slots = set.slotTriangle.size(), edges = set.edgeCount();
-  // Of the slots, at most two of three are at spanning edges.
+  // At most two of three slots are at spanning edges.
   const double bytes = double(slots) * (2 * sizeof(Incidence) / 3.0 + 4 + 8 + 16 / 3.0 + 8) +
                        double(edges) * (sizeof(SpanningEdge) + 4 + 4 + 4 + 8);
   contextBytes_ = 8.0 * double(slots);
@@ -313,7 +315,7 @@ bool TwoLoopBound::compute(uint64_t maxSplits) {
 }
 
 TwoLoopBound::Context& TwoLoopBound::contextOf(uint32_t closing, Segment b) {
-  // With one vertex of B, both directions are the same.
+  // If B is passed as one vertex, both directions are the same.
   const size_t number = 2 * size_t(closing) + b.reversed;
   uint32_t at = contextAt_[number];
   if (at == kNone && b.isVertex()) at = contextAt_[number ^ 1];
@@ -344,7 +346,7 @@ double TwoLoopBound::value(Shape shape, uint32_t slot) {
   const CandidateSet& set = pass_.set;
   Segment first = domains.segment(shape, 0);
   if (domains.segmentCount(shape) == 1) return withHole_[slot];
-  // As the mirror image that passes A forward, and A first, so that the closing edge follows A.
+  // Takes the mirror image that passes A forward, and A first, so that the closing edge follows A.
   Segment a = first, b = domains.segment(shape, 1);
   if (!isOnA(a.start)) {
     std::swap(a, b);
@@ -353,7 +355,7 @@ double TwoLoopBound::value(Shape shape, uint32_t slot) {
     b.reversed = !b.reversed;
   }
   const uint32_t t = set.slotTriangle[slot];
-  // What case I asks is kept.
+  // What case I needs is kept.
   if (b.whole && placeOf(a.end) > placeOf(a.start) && set.slotApex[slot] == a.end)
     return starts_[2 * size_t(t) + b.reversed];
   const Context& context = contextOf(spanOf_[set.edgeBetween(a.end, b.start)], b);

@@ -1,12 +1,13 @@
 // R of relaxed_bound.h for two loops, in arrays over the spanning edges without a hash table.
 // Source: none in Zou, Ju, Carr 2013; see relaxed_bound.h.
 //
-// A domain that has both loops on its boundary lies between a *closing* edge, which waits, and the
-// access edge: a run of loop A before its end p, and a run of loop B from q on, forward or backward.
-// All domains with the same closing edge and direction form a *context*. In it, each is a *front*,
-// known by its access edge; only where that ends at q as well, B may be passed not at all or wholly.
-// Contexts do not depend on each other. Only what case I asks of one, the fronts with all of B, is
-// kept; when the exact solver asks for others, their context is computed again.
+// A domain with both loops on its boundary lies between the access edge and a *closing* edge pq,
+// which waits to be closed. Its boundary has a run of loop A that ends at p, and a run of loop B
+// from q on, forward or backward. All domains with the same closing edge and direction form a
+// *context*. Within it a domain is a *front*, known by its access edge; if that ends at q as
+// well, there are two: B is passed not at all or wholly. Contexts do not depend on each other. Of
+// each, only the fronts with all of B are kept, which case I needs; when the exact solver needs
+// others, their context is computed again.
 #pragma once
 #include <cstdint>
 #include <utility>
@@ -24,19 +25,19 @@ class TwoLoopBound final : public LowerBound {
   /// Two loops; the root is the edge from `rootVertex` to the next vertex of its loop.
   TwoLoopBound(const Pass& pass, uint32_t rootVertex);
 
-  /// Time: two contexts for each triangle's side that closes a surface, and in a context all
-  /// spanning edges, each linear in its degree; over all triples that is O(a^2 b^2 (a + b)) for
-  /// loops of a and b vertices. Memory: some numbers for each candidate, and one context.
-  /// False when the work ended, or when that would take more than the time of `maxSplits` splits
-  /// in RelaxedBound, which is known before it begins.
+  /// Time: two contexts for each side of a triangle that closes a surface; each context visits all
+  /// spanning edges, in time linear in their degrees. Over all triples that is O(a^2 b^2 (a + b))
+  /// for loops of a and b vertices. Memory: some numbers for each candidate, and one context. False
+  /// when the work ended; or at once, if the time would exceed that of `maxSplits` splits in
+  /// RelaxedBound.
   bool compute(uint64_t maxSplits);
 
   double rootBound() const override { return rootBound_; }
   double value(Shape shape, uint32_t slot) override;
   uint64_t domainCount() const { return domainCount_; }
 
-  /// Of the contexts that are kept for the exact solver; at least one is. Tests change it, so that
-  /// contexts are computed again on small input too.
+  /// Memory for the contexts that are kept for the exact solver; at least one is kept. Tests change
+  /// it, so that contexts are computed again on small input too.
 #ifdef SF_TESTING
   static inline double contextBytes = 48e6;
 #else
@@ -50,16 +51,16 @@ class TwoLoopBound final : public LowerBound {
     uint32_t place;   // on A, from the root on
     uint32_t number;  // within B
     uint32_t first;   // of its incidences
-    uint32_t column;  // how many incidences come before at edges to the same vertex of B
+    uint32_t column;  // number of incidences before it at edges to the same vertex of B
   };
-  /// A triangle at a spanning edge: what it costs by itself as the first of a front, and where the
-  /// front that is left goes on. A spanning edge's are consecutive and sorted by angle.
+  /// A triangle at a spanning edge: its cost as the first triangle of a front, and the front that
+  /// is left after it. The incidences of a spanning edge are consecutive and sorted by angle.
   struct Incidence {
     double theta;
-    double base[2];   // w(t) joined with what fills the run that t cuts off; for B passed backward
+    double base[2];   // w(t) and what fills the run that t cuts off; [1]: B backward
     uint32_t apex;    // place on A, or number within B
-    uint32_t rest;    // its incidence at the edge that is left
-    uint32_t column;  // of that one, in fronts with all of B
+    uint32_t rest;    // the triangle's incidence at the edge that is left
+    uint32_t column;  // of that incidence, in fronts with all of B
     bool isOnA;
   };
   struct Context {
@@ -90,7 +91,7 @@ class TwoLoopBound final : public LowerBound {
   Charge memory_;
   AngularTransform transform_;
   uint32_t firstA_, sizeA_, rootPlace_, firstB_, sizeB_;
-  std::vector<SpanningEdge> spans_;   // and one more behind them, which only ends the last one
+  std::vector<SpanningEdge> spans_;   // and one more, to mark the end of the last one
   std::vector<uint32_t> firstSpan_;   // [sizeA + 1] by place
   std::vector<uint32_t> spanOf_;      // [edges]
   std::vector<uint32_t> columnSize_;  // [sizeB]

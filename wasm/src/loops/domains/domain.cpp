@@ -110,8 +110,8 @@ void Domains::splitAtBoundary(Shape d, uint32_t apex, uint32_t j, Segment before
   second.firstInherited = j;
   second.inheritedCount = m - 1 - j;
 
-  // An edge that spans the domain already would get a third triangle, but where two vertices
-  // are all that is left between it and the new one.
+  // An edge that spans the domain already would get a third triangle, unless only two vertices are
+  // left between it and the new one.
   repeats_[0] = repeats_[1] = false;
   for (uint32_t i = 0; i + 1 < m; ++i) {
     const uint32_t a = spanStart(d, i), b = spanEnd(d, i);
@@ -126,7 +126,7 @@ void Domains::firstDistribution(Shape d) {
   for (uint32_t c = 0; c < loops_.loopCount(); ++c)
     if (hasHole(d, c)) holes_.push_back(c);
   toFirst_.assign(holes_.size(), 0);
-  // A part that is empty without holes, or closed by a loop edge, cannot have any.
+  // A part that is empty without holes, or closed by a loop edge, cannot have holes.
   bool mayHold[2];
   for (int i = 0; i < 2; ++i) {
     const Shape s(split_.part[i].shape.data(), split_.part[i].shape.size());

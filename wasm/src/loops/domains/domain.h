@@ -1,8 +1,8 @@
 // Domains: what a partial surface still has to fill, and how a triangle splits one.
 // Source: Zou, Ju, Carr 2013, sec. 3.2.1 (boundary, holes, access edge, cases I and II).
-// Differs: a domain and its mirror image hold the same surfaces, so only one of both is kept; the
-// access edge is always a newest one; splits that the manifoldness of the result rules out at
-// once (a loop edge or a spanning edge that would be closed twice) are not made at all.
+// Differs: a domain and its mirror image hold the same surfaces, so only one of the two is kept.
+// The access edge is always one of the newest. Splits are not made if they cannot give a manifold
+// surface (a loop edge or a spanning edge would be closed twice).
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -13,8 +13,9 @@
 
 namespace sf {
 
-/// A run of one loop on the boundary of a domain, as the boundary passes it. One vertex where
-/// start and end are the same, unless it is the whole loop from a vertex back to itself.
+/// A run of one loop on the boundary of a domain, in the direction of the boundary. If start and
+/// end are the same it is one vertex, or with `whole` the whole loop from that
+/// vertex back to itself.
 struct Segment {
   uint32_t start, end;
   bool reversed;  // passed against the direction of the loop
@@ -45,8 +46,8 @@ struct SplitPart {
   uint32_t inheritedCount;  // the part's first ones
 };
 
-/// A split: one part in case I, where the part has t across a second new spanning edge, the one
-/// after the inherited ones; two parts in case II.
+/// A split. Case I: one part, which has t across a second new spanning edge, the one after the
+/// inherited ones. Case II: two parts.
 struct Split {
   uint32_t partCount;
   SplitPart part[2];
@@ -58,8 +59,8 @@ class Domains {
   explicit Domains(const LoopSet& loops)
       : loops_(loops), holeWords_((loops.loopCount() + 31) / 32) {}
 
-  /// The domain of all loops: the loop of `v`, but for the edge from v to the next vertex, which
-  /// is the access edge, as boundary; the other loops as holes.
+  /// The domain of all loops. Its boundary is the loop of `v` without the edge from v to the next
+  /// vertex, which is the access edge. The other loops are holes.
   std::vector<uint32_t> root(uint32_t v) const;
 
   uint32_t segmentCount(Shape d) const { return (uint32_t(d.size()) - holeWords_) / 2; }
@@ -73,12 +74,12 @@ class Domains {
       if (d[i]) return true;
     return false;
   }
-  /// Ends of spanning edge i; of the access edge for i = m - 1.
+  /// The ends of spanning edge i; i = m - 1 is the access edge.
   uint32_t spanStart(Shape d, uint32_t i) const { return segment(d, i).end; }
   uint32_t spanEnd(Shape d, uint32_t i) const {
     return segment(d, i + 1 == segmentCount(d) ? 0 : i + 1).start;
   }
-  /// Words of a shape that say which loops are holes.
+  /// How many words at the start of a shape hold its set of holes.
   uint32_t holeWords() const { return holeWords_; }
   /// Writes segment i. The direction of a single vertex is not kept.
   void setSegment(std::vector<uint32_t>& d, uint32_t i, Segment s) const {
@@ -86,36 +87,38 @@ class Domains {
     d[holeWords_ + 2 * i] = s.start | (s.reversed ? kReversed : 0) | (s.whole ? kWhole : 0);
     d[holeWords_ + 2 * i + 1] = s.end;
   }
-  /// Lets segment i, which is no single vertex, pass its loop forward.
+  /// Makes segment i pass its loop forward; for single vertices setSegment does so itself.
   void setForward(std::vector<uint32_t>& d, uint32_t i) const {
     d[holeWords_ + 2 * i] &= ~kReversed;
   }
   /// Whether the segment has v, a vertex of any loop.
   bool contains(Segment s, uint32_t v) const;
-  /// Stands for an end of a segment in keys of all shapes that differ there alone; no vertex has its number.
+  /// In keys shared by all shapes that differ in one end of a segment only, this stands for that
+  /// end. No vertex has this number.
   static constexpr uint32_t kAnyVertex = (1u << 30) - 1;
   /// Whether v is an end of one of the segments: the only vertices that weak edges join.
   bool isEnd(Shape d, uint32_t v) const;
 
-  /// The shape as it is kept, of it and its mirror image: true if that is the mirror image, in
-  /// which the spanning edges but the access edge come in reverse order.
+  /// Replaces the shape by its mirror image if that is the one of the two that is kept, and returns
+  /// whether it did. All spanning edges but the access edge are then in reverse order.
   bool makeCanonical(std::vector<uint32_t>& shape) const;
 
-  /// Calls visit(const Split&) for every split of d by a triangle on its access edge with this
-  /// third vertex, but for those that cannot be part of a manifold surface, until visit returns
-  /// false. None if the apex is neither on the boundary nor on a hole, or is an end of the access
-  /// edge. With h holes, an apex on the boundary has up to 2^h splits.
+  /// Calls visit(const Split&) for every split of d by the triangle on its access edge with this
+  /// third vertex, until visit returns false. Leaves out splits that no manifold surface can have.
+  /// There are none if the apex is neither on the boundary nor on a hole, or is an end of the
+  /// access edge. With h holes, an apex on the boundary has up to 2^h splits.
   template <class Visit>
   void forEachSplit(Shape d, uint32_t apex, Visit&& visit);
 
  private:
   static constexpr uint32_t kReversed = 1u << 30, kWhole = 1u << 31, kVertexMask = kReversed - 1;
 
-  /// Classifies split.part[i]; false if no surface can fill it.
+  /// Sets the kind of a part; false if no surface can fill it.
   bool classify(SplitPart& part, bool repeatsSpanningEdge) const;
   void splitAtHole(Shape d, uint32_t apex, bool reversed);
   void splitAtBoundary(Shape d, uint32_t apex, uint32_t j, Segment before, Segment after);
-  /// Starts the distributions of the holes of d; next() goes on and returns false after the last.
+  /// Starts the distributions of the holes of d. nextDistribution() goes on, and returns false
+  /// after the last.
   void firstDistribution(Shape d);
   bool nextDistribution();
   void distribute();
@@ -125,7 +128,7 @@ class Domains {
   Split split_{};
   bool repeats_[2] = {false, false};
   std::vector<uint32_t> holes_;   // loops to distribute
-  std::vector<uint8_t> toFirst_;  // which of them part 0 gets
+  std::vector<uint8_t> toFirst_;  // which of them go to part 0
   bool oneDistribution_ = false;
 };
 

@@ -9,7 +9,8 @@
 namespace sf {
 namespace {
 
-/// The first limit above the root's bound, by that; doubled as many times before there is none.
+/// The first limit is above the root's bound by this share. It is doubled kLimits times,
+/// then dropped.
 constexpr double kFirstRoom = 0.01;
 constexpr int kLimits = 8;
 
@@ -228,7 +229,7 @@ bool ExactSolver::makeParts(const Frame& frame, const Candidate& candidate) {
         criticalSpanningEdges(part.shape, out.spanning);
         continue;
       }
-      // What is empty, or a single segment, uses no weak edge but the one that closes it.
+      // An empty part, or a single segment, uses no weak edge but the one that closes it.
       if (isCritical(edge)) out.spanning.push_back(edge);
       if (part.kind == PartKind::EmptyPair) out.cost = emptyPairCost(part, t, triangles);
       if (part.kind == PartKind::Segment) {
@@ -246,7 +247,7 @@ bool ExactSolver::take(Frame& frame, const Candidate& candidate, uint32_t& missi
   for (uint32_t i = 0; i < partCount_; ++i) {
     const OpenPart& part = parts_[i];
     if (part.ref.kind != PartKind::Domain) continue;
-    // What the rest of the split leaves; sums in another order differ in the last digits.
+    // The limit less the rest of the split; sums in another order differ in the last digits.
     asked = frame.limit;
     if (asked < kInfinity && !pass_.measure.isWorst())
       asked += 1e-9 * std::fabs(asked) - (candidate.bound - part.bound);
@@ -274,7 +275,7 @@ void ExactSolver::combine(Frame& frame, const Candidate& candidate) {
   std::vector<uint32_t> spanning;
   criticalSpanningEdges(shape, spanning);
 
-  // A part that is no domain counts as a domain with one solution, without weak edges.
+  // A part that is not a domain counts as a domain with one solution, without weak edges.
   constexpr PartRef kEmpty{PartKind::EmptyEdge, kNone, 0, nullptr};
   const Solution none{0, nullptr, 0, kNone, {kEmpty, kEmpty}};
   ArrayView<const Solution> choices[2];
@@ -351,7 +352,7 @@ bool ExactSolver::close(Frame& frame) {
     solutions_.resize(table_.size());
   }
   solutions_[frame.domain] = {solutions, frame.drafts.size()};
-  // One without critical edges that is within the limit is the best of all, whatever the limit.
+  // A solution without critical edges that is within the limit is the best of all, at any limit.
   solved_[frame.domain] = frame.cut <= frame.limit ? kInfinity : frame.asked;
   return true;
 }

@@ -1,13 +1,15 @@
 // The optimal surface over several loops.
 // Source: Zou, Ju, Carr 2013, sec. 3.2 and fig. 6: domains with the triangles across all their
 // spanning edges, weak edge sets, minimal sets, traceback.
-// Differs: top-down on an explicit stack, splits in the order of their lower bound (lower_bound.h)
-// and cut as soon as that cannot improve on a surface without critical edges, or as what is outside of
-// the domain leaves too little of a limit on the whole. The limit rises from the bound until a surface
-// is found within it, so that parts which the optimum does not have are hardly looked at. Weak edges are
-// tracked lazily: first none; where the optimum then closes an edge twice, that edge becomes
-// critical, and the pass is repeated. This is exact, since an optimum of the relaxed problem that
-// is a manifold is optimal, and ends, since every round adds an edge.
+// Differs: top-down on an explicit stack, with splits in the order of their lower bound
+// (lower_bound.h). The rest of the splits is skipped once their bound cannot improve on a surface
+// without critical edges. It is also skipped once their bound, together with the bound on
+// everything outside of the domain, exceeds a limit on the whole cost. The limit starts near the
+// root's bound and rises until a surface is found within it, so parts that the optimum does not
+// have are hardly looked at. Weak edges are tracked lazily: at first none. If the optimum then
+// closes an edge twice, that edge becomes critical, and the pass is repeated. This is exact, since
+// an optimum of the relaxed problem that is a manifold is optimal; and it ends, since every round
+// adds an edge.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -33,15 +35,15 @@ constexpr int kLazyRounds = 12;
 
 class ExactSolver {
  public:
-  /// `bound` is of the same pass and computed from the same root, the edge from `rootVertex` to
-  /// the next vertex of its loop.
-  ///   lazyRounds  0: all edges are tracked from the start; what it is changes the time, not the cost
+  /// `bound` is of the same pass and computed from the same root, the edge from `rootVertex` to the
+  /// next vertex of its loop.
+  ///   lazyRounds  changes the time, not the cost; 0: all edges are tracked from the start
   ExactSolver(const Pass& pass, LowerBound& bound, uint32_t rootVertex,
               int lazyRounds = kLazyRounds);
   ~ExactSolver();
 
-  /// The least cost, infinity if there is no surface, or none that costs `most` or less; it may be above
-  /// `most` as well, and then need not be the least. False when the work ended.
+  /// Finds the least cost; infinity if no surface costs `most` or less. A cost above `most` can
+  /// come back as well; it need not be the least. False when the work ended.
   bool solve(double most, double& cost, SplitOrder& order);
 
   uint64_t domainCount() const { return domainCount_; }
@@ -49,7 +51,7 @@ class ExactSolver {
 
  private:
   struct Solution;
-  /// A part of a split with its optimal triangulation, as far as it is not empty.
+  /// A part of a split; if it is not empty, with its optimal triangulation.
   struct PartRef {
     PartKind kind;
     uint32_t a, b;             // Domain: number. Segment: slot of the access triangle, side.
@@ -65,7 +67,7 @@ class ExactSolver {
 
     WeakEdgeSet weakEdges() const { return {edges, edgeCount}; }
   };
-  /// A split by its lower bound: the `ordinal`-th of those with the triangle at `slot`.
+  /// A split and its lower bound: the `ordinal`-th split by the triangle at `slot`.
   struct Candidate {
     double bound;
     uint32_t slot, ordinal;
@@ -79,16 +81,16 @@ class ExactSolver {
     size_t cursor;
     uint64_t bytes;  // charged for the candidates
     double cut;      // cost of the solution that uses no critical edge
-    double asked;    // up to which cost solutions are wanted
-    double limit;    // the same, or less where the bound knows that more is of no use
+    double asked;    // solutions up to this cost are needed
+    double limit;    // the same, or less if the bound shows that dearer ones are useless
     std::vector<Candidate> candidates;
     std::vector<Draft> drafts;
   };
-  /// What is known of a part once its split is taken up.
+  /// A part of the split that is being combined.
   struct OpenPart {
     PartRef ref;
     double cost;                     // of parts other than domains
-    double bound;                    // of domains
+    double bound;                    // of domains: lower bound
     std::vector<uint32_t> spanning;  // critical ones among its spanning edges
   };
 
@@ -100,7 +102,7 @@ class ExactSolver {
   void combine(Frame& frame, const Candidate& candidate);
   void addDraft(Frame& frame, Draft&& draft);
   void trace(SplitOrder& order) const;
-  /// Adds the edges that the surface does not close as it should; whether there are any.
+  /// Makes the edges of wrong valence in the surface critical; returns whether there are any.
   bool addCriticalEdges(const SplitOrder& order);
 
   uint32_t segmentsOf(uint32_t domain) const {
@@ -132,7 +134,7 @@ class ExactSolver {
   DomainTable table_;
   Arena arena_;
   std::vector<ArrayView<const Solution>> solutions_;  // by domain
-  std::vector<double> solved_;                        // by domain: up to which cost
+  std::vector<double> solved_;                        // by domain: up to this cost
   std::vector<uint32_t> critical_;                    // increasing
   bool allCritical_ = false;
   std::vector<Frame> frames_;

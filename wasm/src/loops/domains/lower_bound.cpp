@@ -23,7 +23,7 @@ std::vector<double> leastPairs(const CandidateSet& set, Measure measure) {
           size_t(std::lower_bound(around.begin(), around.end(), std::make_pair(opposite, 0u)) -
                  around.begin());
       for (size_t step = 0; step < 2; ++step) {
-        // Skips the triangle itself, which can be next only if there is nothing nearer.
+        // Skips the triangle itself, which can come next only if nothing is nearer.
         size_t i = (at + (step == 0 ? 0 : around.size() - 1)) % around.size();
         if (around[i].second == slot) i = (i + (step == 0 ? 1 : around.size() - 1)) % around.size();
         least[slot] = std::min(least[slot], measure.pair(theta, around[i].first));

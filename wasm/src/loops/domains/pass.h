@@ -1,4 +1,4 @@
-// What one pass of the solver minimises, and over what; see weight.h for why there may be two passes.
+// What one pass of the solver minimises, and over what. There may be two passes: see weight.h.
 #pragma once
 #include <algorithm>
 #include <vector>
@@ -29,7 +29,7 @@ struct Task {
 struct Pass : Task {
   const SegmentTable& segments;  // of the same loops, set, costs and measure
 
-  /// The segment that fills a part of one segment without holes, closed by its access edge.
+  /// The segment that fills a part made of one segment without holes; its access edge closes it.
   ClosedSegment closedSegment(uint32_t edge, bool reversed, uint32_t start, uint32_t end) const {
     return {edge, segments.sideFrom(edge, reversed ? end : start)};
   }

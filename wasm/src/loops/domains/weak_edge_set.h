@@ -1,7 +1,7 @@
 // Sets of weak edges: the edges of a partial surface that the rest of it could use again.
 // Source: Zou, Ju, Carr 2013, sec. 3.2.2 (weak edges, definition 3.1) and 3.2.3 (minimal sets).
-// Differs: only *critical* edges are tracked, which the solver finds out as it goes; and a set does
-// not repeat the spanning edges of its domain, since the domain itself tells them. Fig. 6 keeps a
+// Differs: only *critical* edges are tracked, which the solver finds on its way. A set does not
+// repeat the spanning edges of its domain, since the domain already has them. Fig. 6 keeps a
 // superset of equal weight; the definition in sec. 3.2.3 drops it, so do we.
 #pragma once
 #include <algorithm>

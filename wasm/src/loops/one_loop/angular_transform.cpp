@@ -33,7 +33,7 @@ void AngularTransform::applySorted(const double* innerTheta, const double* base,
     apply(innerTheta, base, inner, outerTheta, outer, result);
     return;
   }
-  // Opposite directions increase as well, once those of angles up to 0 come after the others.
+  // Opposite directions increase as well, if those of angles up to 0 are put after the others.
   size_t split = 0;
   while (split < outer && outerTheta[split] <= 0) ++split;
   const auto turned = [&](size_t j) { return j + split < outer ? j + split : j + split - outer; };
@@ -42,7 +42,7 @@ void AngularTransform::applySorted(const double* innerTheta, const double* base,
     up = std::min(up, base[i] - weight * innerTheta[i]);
     down = std::min(down, base[i] + weight * innerTheta[i]);
   }
-  // From one direction to the next, with what comes round the circle to begin with.
+  // Goes from one direction to the next; at first `up` and `down` hold what comes round the circle.
   up += 2 * kPi * weight;
   down += 2 * kPi * weight;
   for (size_t j = 0, i = 0; j < outer; ++j) {
@@ -115,8 +115,8 @@ void AngularTransform::buckets(const double* innerTheta, const double* base, siz
   bucketStart_.push_back(uint32_t(inner));
   const uint32_t* first = bucketStart_.data() + 1;
 
-  // Least base - weight * theta over the buckets before, base + weight * theta over those after;
-  // what goes round the circle the other way comes from the ends.
+  // The least base - weight * theta over the buckets before, and base + weight * theta over those
+  // after. What goes round the circle the other way comes from the ends.
   before_.resize(count + 1);
   after_.resize(count + 1);
   double least = kInfinity;

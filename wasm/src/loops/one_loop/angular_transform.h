@@ -1,4 +1,4 @@
-// The cheapest inner triangle at an edge, wanted for every outer triangle at once.
+// The cheapest inner triangle at an edge, for every outer triangle at once.
 // Source: the minimum over t in eq. 2 of Zou, Ju, Carr 2013, for dihedral weights.
 // Differs: around an edge every triangle is a half-plane at an angle, and the dihedral angle is the
 // distance on the circle between one of them and the opposite of the other. The minimum of
@@ -21,8 +21,8 @@ class AngularTransform {
   /// result[j] = the least join(base[i], pair(innerTheta[i], outerTheta[j])) over all i.
   ///   innerTheta, base   [inner] angles in [-pi, pi]; costs, infinity allowed
   ///   outerTheta, result [outer] angles in [-pi, pi]
-  /// Sums: O(inner + outer). With a cap, or for maxima: O((inner + outer) log inner). All pairs
-  /// where that is less work.
+  /// Sums: O(inner + outer). With a cap, or for maxima: O((inner + outer) log inner). Tries all
+  /// pairs where that is less work.
   void apply(const double* innerTheta, const double* base, size_t inner, const double* outerTheta,
              size_t outer, double* result);
 
@@ -30,8 +30,9 @@ class AngularTransform {
   void applySorted(const double* innerTheta, const double* base, size_t inner,
                    const double* outerTheta, size_t outer, double* result);
 
-  /// Products of inner and outer counts up to which all pairs are the fastest, measured: for sums,
-  /// and for maxima or with a cap. Tests change them, so that small input goes the other ways too.
+  /// Products of inner and outer counts up to which all pairs are the fastest, as measured: for
+  /// sums, and for maxima or with a cap. Tests change them, so that small input takes the other
+  /// ways too.
 #ifdef SF_TESTING
   static inline size_t fewPairs = 1500, fewPairsCapped = 20000;
 #else

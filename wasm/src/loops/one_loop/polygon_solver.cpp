@@ -48,13 +48,13 @@ template <class F>
 void Polygon::forEachFace(uint32_t i, uint32_t j, F f) const {
   if (weights_.normals.empty()) return;
   double angle;
-  const auto tell = [&](uint32_t a, uint32_t b, uint32_t apex, uint32_t k) {
+  const auto visit = [&](uint32_t a, uint32_t b, uint32_t apex, uint32_t k) {
     if (faceAngle(loops_, weights_.normals, a, b, apex, angle)) f(k, angle);
   };
-  tell(i, i + 1, j, i + 1);
-  tell(j - 1, j, i, j - 1);
+  visit(i, i + 1, j, i + 1);
+  visit(j - 1, j, i, j - 1);
   if (i == 0 && j == n_ - 1)
-    for (uint32_t k = 1; k < j; ++k) tell(j, i, k, k);
+    for (uint32_t k = 1; k < j; ++k) visit(j, i, k, k);
 }
 
 void Polygon::triangleCosts(uint32_t i, uint32_t j, double* cost) const {
@@ -117,8 +117,8 @@ void Polygon::anglesAround(uint32_t i, uint32_t j, double* theta) const {
   }
 }
 
-/// One pass that looks at angles. Real: what the cost of a triangle with all behind it is kept in,
-/// rounded down.
+/// One pass that looks at angles. `Real` is the type that holds the cost of a triangle with all
+/// behind it, rounded down.
 template <class Real>
 class AnglePass {
  public:
@@ -158,7 +158,7 @@ template <class Real>
 bool AnglePass<Real>::finish(uint32_t i, uint32_t j) {
   const uint32_t n = polygon_.size(), count = j - i - 1;
   Real* base = row(i, j);
-  // What lies behind the triangles is there already; their own cost comes now.
+  // The row already has the cost of what lies behind the triangles; now their own is added.
   if (measure_.isWorst())
     polygon_.faceAngles(i, j, cost_.data());
   else

@@ -1,9 +1,9 @@
 // One polygon over all triples of its vertices, without a list of them.
-// Source: Zou, Ju, Carr 2013, sec. 3.1 and 4.1: eq. 2 (Barequet, Dickerson, Eppstein 1996), and eq. 1
-// (Barequet, Sharir 1995) where no weight couples neighbours.
-// Differs: bottom-up, O(n^3) time in either case (angular_transform.h), and one number for each
-// triangle, its own cost joined with the best of what lies behind it, in place of one for each
-// domain and a note of its best split. The surface is traced by computing minima again.
+// Source: Zou, Ju, Carr 2013, sec. 3.1 and 4.1: eq. 2 (Barequet, Dickerson, Eppstein 1996), and
+// eq. 1 (Barequet, Sharir 1995) where no weight couples neighbours.
+// Differs: bottom-up, O(n^3) time in either case (angular_transform.h). It keeps one number for
+// each triangle, its own cost joined with the best of what lies behind it, and not one for each
+// domain with its best split. The surface is traced by computing minima again.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -17,7 +17,7 @@ namespace sf {
 
 struct PolygonSurface {
   bool found = false;
-  bool optimal = false;             // proven; not if single precision may have hidden a better one
+  bool optimal = false;             // proven; not if single precision may hide a better one
   std::vector<uint32_t> triangles;  // [3 (n - 2)] in the order of splitting, increasing in each
   double lowerBound = 0;            // of the objective, proven up to the rounding of doubles
 };
@@ -31,8 +31,8 @@ struct PolygonSurface {
 bool solvePolygon(const LoopSet& loops, const TriangleWeights& weights, Objective objective,
                   Work& work, PolygonSurface& surface);
 
-/// Bytes that solvePolygon takes at least, with a dihedral weight or the worst-dihedral objective, or
-/// without either.
+/// The least bytes that solvePolygon takes. `looksAtAngles`: there is a dihedral weight, or the
+/// objective is the worst angle.
 double bytesForPolygon(double n, bool looksAtAngles);
 
 }  // namespace sf

@@ -1,7 +1,7 @@
 // Optimal triangulations of all domains that are one segment of one loop and have no holes.
 // Source: Zou, Ju, Carr 2013, sec. 3.1, eq. 2 (Barequet, Dickerson, Eppstein 1996).
-// Differs: bottom-up by segment length in place of memoised recursion. For one polygon the whole
-// answer is in this table; for several it is where the recursion of the solver ends.
+// Differs: bottom-up by segment length in place of memoised recursion. For one polygon this table
+// is the whole answer; for several the recursion of the solver ends in it.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -28,13 +28,14 @@ class SegmentTable {
   ~SegmentTable();
 
   /// W(D) for the segment closed by the slot's edge, with the slot's triangle as access triangle:
-  /// its bi-triangle weight is counted, its own weight is not. Infinity if there is none.
+  /// its bi-triangle weight is counted, its own weight is not.
+  /// Infinity if there is no triangulation.
   /// Precondition: both ends of the edge lie on one loop; the apex is not inside the segment.
   double value(uint32_t slot, uint32_t side) const { return values_[2 * size_t(slot) + side]; }
 
-  /// The slot of the triangle that splits the segment best, given the access triangle's slot
-  /// (kNone at the root, where the segment is all of a loop but its closing edge).
-  /// kNone if the segment is a single loop edge, which is empty, or has no triangulation.
+  /// The slot of the triangle that splits the segment best for this slot of the access triangle.
+  /// kNone as access slot is the root, where the segment is all of a loop but its closing edge.
+  /// Returns kNone if the segment is a single loop edge, which is empty, or has no triangulation.
   uint32_t bestSplit(ClosedSegment segment, uint32_t accessSlot) const;
 
   /// W of the split of the segment by the triangle at `slot`, its own weight included, without

@@ -137,7 +137,7 @@ bool buildIncidence(const LoopSet& loops, Work& work, CandidateSet& set) {
       frame = frameAcross(loops.position(v) - loops.position(u));
     }
     const Vec3 apex = loops.position(set.triangles[corner]);
-    // The nearer end keeps the cancellation in the projection of a sliver small.
+    // Measured from the nearer end, the projection of a sliver loses little to cancellation.
     const Vec3 toU = apex - loops.position(u), toV = apex - loops.position(v);
     const Vec3 arm = dot(toU, toU) <= dot(toV, toV) ? toU : toV;
     const double y = dot(arm, frame.y), x = dot(arm, frame.x);
@@ -191,7 +191,7 @@ bool faceAngle(const LoopSet& loops, ArrayView<const double> normals, uint32_t a
   }
   Vec3 face = {normals[3 * size_t(a)], normals[3 * size_t(a) + 1], normals[3 * size_t(a) + 2]};
   if (std::isnan(face.x)) return false;
-  // Squares of very long and very short normals do not fit.
+  // Squares of very long and very short normals overflow or vanish.
   const double largest = std::max({std::fabs(face.x), std::fabs(face.y), std::fabs(face.z)});
   face = {face.x / largest, face.y / largest, face.z / largest};
   const Vec3 p = loops.position(a);
@@ -242,7 +242,7 @@ bool nearTriples(const LoopSet& loops, ArrayView<const uint32_t> facets, uint32_
   for (uint32_t v = 0; v < n; ++v) {
     if (!work.tick(200 * reach * reach)) return false;
     nearestVertices(loops, start, neighbours, v, reach, near);
-    // The loop neighbours belong in even where they are far: the surface has to pass there.
+    // Loop neighbours are included even where they are far: the surface has to pass there.
     for (const uint32_t w : {loops.previous(v), loops.next(v)})
       if (std::find(near.begin(), near.end(), w) == near.end()) near.push_back(w);
     for (size_t i = 0; i < near.size(); ++i)

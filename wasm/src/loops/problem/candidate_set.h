@@ -24,7 +24,7 @@ struct TriangleWeights {
 /// The incidences of an edge are consecutive: a *slot* names one triangle at one of its edges.
 struct CandidateSet {
   std::vector<uint32_t> triangles;      // [3c] vertices, increasing within a triangle
-  std::vector<double> weight;           // [c] w(t): all that does not depend on a neighbour
+  std::vector<double> weight;           // [c] w(t): all terms that do not depend on a neighbour
   std::vector<double> boundaryAngle;    // [c] largest angle to a given face, or empty if none
   std::vector<uint32_t> triangleEdges;  // [3c] edge opposite to each vertex
   std::vector<uint32_t> triangleSlots;  // [3c] slot at the edge opposite to each vertex
@@ -62,32 +62,32 @@ struct CandidateSet {
   static double bytesFor(double c) { return 148 * c; }
 };
 
-/// The angle between the triangle a, b, apex and the face given across the loop edge of a and b, both
-/// seen with the loop's direction; false if that is no loop edge or has no face.
+/// The angle between the triangle a, b, apex and the face given across the loop edge of a and b,
+/// both seen in the loop's direction; false if that is no loop edge or has no face.
 bool faceAngle(const LoopSet& loops, ArrayView<const double> normals, uint32_t a, uint32_t b,
                uint32_t apex, double& angle);
 
-/// Triples of a space, three increasing vertices each, no triple twice, none collinear. [3c]
-/// All of them: n (n-1) (n-2) / 6 at most.
+/// Triples of a space: [3c], three increasing vertices each, no triple twice, none collinear. Here
+/// all of them: n (n-1) (n-2) / 6 at most.
 bool allTriples(const LoopSet& loops, Work& work, std::vector<uint32_t>& triples);
-/// At most how many triples nearTriples makes besides the facets, before repeated ones are dropped.
+/// The most triples that nearTriples makes besides the facets, before repeated ones are dropped.
 double predictedNearTriples(const LoopSet& loops, uint32_t reach);
 /// The facets, every triple of a vertex and two of its `reach` nearest neighbours along Delaunay
 /// edges, and each loop edge with the neighbours of its ends.
 ///   facets  [3f] of the Delaunay tetrahedralization of the loop vertices
 bool nearTriples(const LoopSet& loops, ArrayView<const uint32_t> facets, uint32_t reach, Work& work,
                  std::vector<uint32_t>& triples);
-/// The facets without the collinear ones; facets need no order within.
+/// The facets without the collinear ones. The vertices of a facet may be in any order.
 bool facetTriples(const LoopSet& loops, ArrayView<const uint32_t> facets, Work& work,
                   std::vector<uint32_t>& triples);
 /// A caller's list. BadCandidates, with its index as `vertex`, for the first triangle that is out
-/// of range, collinear, or there already.
+/// of range, collinear, or a repetition.
 ///   order  [c] the caller's index of each triple
 Outcome givenTriples(const LoopSet& loops, ArrayView<const uint32_t> triangles, Work& work,
                      std::vector<uint32_t>& triples, std::vector<uint32_t>& order);
 
 /// Weights, edges and incidence of the triples, which move into the set. False when `work` ended.
-/// O(c log c) time. Charges CandidateSet::bytesFor(c), which the owner of the set gives back.
+/// O(c log c) time. Charges CandidateSet::bytesFor(c), which the owner of the set releases.
 bool buildCandidateSet(const LoopSet& loops, const TriangleWeights& weights,
                        std::vector<uint32_t> triples, Work& work, CandidateSet& set);
 

@@ -30,7 +30,7 @@ bool segmentsMeet(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     Flat p = project(a, axis), q = project(b, axis), r = project(c, axis), s = project(d, axis);
     int pqr = turn(p, q, r), pqs = turn(p, q, s), rsp = turn(r, s, p), rsq = turn(r, s, q);
     if (pqr == 0 && pqs == 0 && rsp == 0 && rsq == 0) continue;
-    // The plane of the four is not projected to a line, so that the picture tells.
+    // The plane of the four does not project to a line, so the projection decides.
     return pqr * pqs <= 0 && rsp * rsq <= 0;
   }
   const Vec3 &ab0 = isBefore(a, b) ? a : b, &ab1 = isBefore(a, b) ? b : a;
@@ -71,7 +71,7 @@ class EdgePairs {
     // Top down; a node's children are 2 k and 2 k + 1.
     for (size_t k = 1; k < 2 * leaves; ++k) {
       uint32_t begin = start(k), end = stop(k);
-      Box box = {{1, 1, 1}, {-1, -1, -1}};  // of nothing; coordinates are below 1
+      Box box = {{1, 1, 1}, {-1, -1, -1}};  // empty; coordinates are below 1
       for (uint32_t i = begin; i < end; ++i) box.add(p_[order_[i]]), box.add(p_[next(order_[i])]);
       boxes_[k] = box;
       if (k < leaves && end > begin) divide(box, begin, start(2 * k + 1), end);

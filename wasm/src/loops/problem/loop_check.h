@@ -1,4 +1,4 @@
-// Whether the input curves are what the rest takes for granted.
+// Checks what all else takes for granted of the input curves.
 #pragma once
 #include "base/status.h"
 #include "base/work.h"
@@ -6,14 +6,14 @@
 
 namespace sf {
 
-/// Status Ok if the loops are simple and disjoint, else the first trouble found, in this order:
+/// Status Ok if the loops are simple and disjoint, else the first fault found, in this order:
 ///   NotFinite       `loop` and `vertex` of a coordinate that is NaN or beyond kLargestCoordinate
 ///   TooFewVertices  `loop` with fewer than 3 vertices
 ///   RepeatedVertex  two vertices of the whole input with the same position, consecutive or not, in
 ///                   one loop or in two; positions that differ by less than 2^-200 of the largest
 ///                   coordinate can count as the same
-///   LoopsIntersect  two edges, given by their first vertices, that cross, touch or overlap; those
-///                   at a common vertex if they fold back onto each other. Exact, and looked for
+///   LoopsIntersect  two edges, given by their first vertices, that cross, touch or overlap; edges
+///                   with a common vertex only if they fold back onto each other. Exact. Looked for
 ///                   only if `intersections`
 ///   OutOfMemory, Stopped
 /// O(n log n) time where edges' boxes overlap few others, O(n) memory.

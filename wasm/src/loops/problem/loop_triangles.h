@@ -7,15 +7,15 @@
 
 namespace sf {
 
-/// Triangles that come with the loops whose vertices they name: a surface to begin from, which may be
-/// outdated, edited, or somebody's guess. Vertices of loops with inserted vertices and of those without
-/// are different numbers. So whoever reads triangles takes the loops from here as well, and triangles
-/// come in only through the constructor, which lets no vertex pass that these loops do not have.
+/// Triangles together with the loops whose vertices they name: a surface to begin from, which may
+/// be outdated, edited, or somebody's guess. A number means different vertices in loops with
+/// inserted vertices and in loops without. So readers of the triangles take the loops from here as
+/// well. The only way in is the constructor, which admits no vertex that these loops do not have.
 class LoopTriangles {
  public:
   /// No triangles. `loops` has to outlive it.
   explicit LoopTriangles(const LoopSet& loops) : loops_(&loops) {}
-  /// Those of `triangles` [3m] that have three different vertices of the loops; the others are left out.
+  /// Keeps those of `triangles` [3m] that have three different vertices of the loops.
   LoopTriangles(const LoopSet& loops, ArrayView<const uint32_t> triangles);
 
   const LoopSet& loops() const { return *loops_; }

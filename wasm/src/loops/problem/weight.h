@@ -1,9 +1,9 @@
 // Weights of triangles and of pairs of triangles, and how they add up to the cost of a surface.
 // Source: Zou, Ju, Carr 2013, sec. 3.1, eqs. 1 and 2.
-// Differs: next to the paper's sum there is the largest dihedral angle, smallest possible. It is
-// found in two passes, because the least sum among the surfaces of least worst angle has no
-// optimal substructure: first the worst angle alone (maxima in place of sums), then the sum over
-// the surfaces none of whose angles exceed it.
+// Differs: besides the paper's sum, the largest dihedral angle can be minimised. That takes two
+// passes, because the least sum among the surfaces of least worst angle has no optimal
+// substructure: first the worst angle alone (maxima in place of sums), then the sum over the
+// surfaces none of whose angles exceed it.
 #pragma once
 #include <cmath>
 #include <limits>
@@ -17,9 +17,9 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kAngleTie = 1e-10;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Dihedral angle (0 flat, pi folded) of two triangles that stand around their common edge at the
-/// angles thetaA and thetaB, each in [-pi, pi]. Equals the angle between their consistently
-/// oriented normals.
+/// The dihedral angle (0 flat, pi folded) of two triangles at the angles thetaA and thetaB around
+/// their common edge, each in [-pi, pi]. Equals the angle between
+/// their consistently oriented normals.
 inline double dihedralAngle(double thetaA, double thetaB) {
   return std::fabs(kPi - std::fabs(thetaA - thetaB));
 }

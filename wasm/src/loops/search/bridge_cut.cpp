@@ -8,7 +8,7 @@
 namespace sf {
 namespace {
 
-/// Of a copy before it is a candidate.
+/// Bytes of a copy of a triangle before it is a candidate.
 constexpr uint64_t kBytesPerCopy = 48;
 
 bool isIn(const std::vector<uint32_t>& sorted, uint32_t value) {
@@ -37,8 +37,8 @@ std::vector<EdgeUse> edgeUses(const CandidateSet& set, const SplitOrder& order) 
 }
 
 bool isSurface(const LoopSet& loops, const CandidateSet& set, SplitOrder& triangles) {
-  // With so many triangles, and one fan at each vertex, the Euler number is that of a sphere with k holes: all
-  // surfaces that cannot be oriented, or have handles, have a smaller one.
+  // With this number of triangles, and one fan at each vertex, the Euler number is that of a sphere
+  // with k holes. All surfaces that cannot be oriented, or have handles, have a smaller one.
   const size_t count = size_t(loops.vertexCount()) + 2 * size_t(loops.loopCount()) - 4;
   if (triangles.size() != count) return false;
   const std::vector<EdgeUse> uses = edgeUses(set, triangles);
@@ -87,7 +87,7 @@ BridgeCut cutSurface(const CandidateSet& set, const std::vector<EdgeUse>& uses,
   const auto isSide = [&](uint32_t edge) {
     return set.isLoopEdge[edge] || isIn(cut.bridges, edge);
   };
-  // Round the boundary of what is left, from side to side about their common end.
+  // Goes round the boundary of what is left, from side to side about their common end.
   std::vector<uint8_t> seen(uses.size(), 0);
   for (size_t first = 0; first < uses.size(); ++first) {
     if (seen[first] || !isSide(uses[first].edge)) continue;
@@ -123,7 +123,7 @@ void CutProblem::addCopy(uint32_t t, const uint32_t place[3],
     const uint32_t edge = set.triangleEdges[3 * size_t(t) + i];
     const uint32_t a = place[(i + 1) % 3], b = place[(i + 2) % 3];
     const bool bridge = isIn(cut_.bridges, edge);
-    // What closes a loop or was cut is a side here, and no chord.
+    // A loop edge or an edge that was cut is a side here, never a chord.
     if ((set.isLoopEdge[edge] || bridge) && !loops_.isLoopEdge(a, b)) return;
     if (!bridge) continue;
     const uint32_t across = cut_.across[loops_.next(a) == b ? a : b];
@@ -145,7 +145,7 @@ bool CutProblem::build(ArrayView<const uint32_t> kept, const std::vector<double>
   std::vector<Vec3> positions;
   for (const uint32_t v : cut_.origin) positions.push_back(task_.loops.position(v));
   loops_ = LoopSet(positions, cut_.starts);
-  // Where each vertex is.
+  // Finds the positions of each vertex.
   std::vector<uint32_t> first(size_t(task_.loops.vertexCount()) + 1, 0), places(count);
   for (const uint32_t v : cut_.origin) ++first[v + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());

@@ -1,5 +1,5 @@
-// A surface over several loops cut along some of its edges from loop to loop, its bridges, and the
-// problem over fewer loops that is left then.
+// Cuts a surface over several loops along some of its bridges, the edges from loop to loop, and
+// solves the problem over fewer loops that is left.
 // Source: none in Zou, Ju, Carr 2013; see surface_search.h.
 #pragma once
 #include <cstdint>
@@ -9,11 +9,12 @@
 
 namespace sf {
 
-/// Loops with repeated vertices, which a cut leaves: either side of a bridge is an edge of them.
+/// The loops that a cut leaves. Vertices repeat in them:
+/// each side of a bridge is one of their edges.
 struct BridgeCut {
   std::vector<uint32_t> origin;   // [N] vertex at each position
-  std::vector<uint32_t> across;   // [N] slot of the triangle that stands across the side from each
-                                  // position to the next; kNone: no bridge, or none is known
+  std::vector<uint32_t> across;   // [N] slot of the triangle across the side from each
+                                  // position to the next; kNone: no bridge, or not known
   std::vector<uint32_t> starts;   // [j+1] of the loops that are left, as in a LoopSet
   std::vector<uint32_t> bridges;  // edges that were cut, increasing
 
@@ -31,18 +32,18 @@ struct EdgeUse {
 /// The edges of a surface's triangles, sorted. [3m]
 std::vector<EdgeUse> edgeUses(const CandidateSet& set, const SplitOrder& order);
 
-/// Whether triangles are a surface over the loops in the sense of Zou, Ju, Carr 2013, definition 3.2; puts them
-/// in the order of splitting, each but the first beside an earlier one. O(m log m).
+/// Whether triangles are a surface over the loops by definition 3.2 of Zou, Ju, Carr 2013. Puts
+/// them in the order of splitting, each but the first beside an earlier one. O(m log m).
 ///   triangles  numbers in the set, no two alike
 bool isSurface(const LoopSet& loops, const CandidateSet& set, SplitOrder& triangles);
 
-/// Cuts a valid surface along `bridges` (increasing), which close no circle of loops.
+/// Cuts a valid surface along `bridges` (increasing), which must not join loops in a circle.
 ///   uses  of the surface, see edgeUses
 BridgeCut cutSurface(const CandidateSet& set, const std::vector<EdgeUse>& uses,
                      std::vector<uint32_t> bridges);
 
-/// The candidates over the positions of a cut. No triangle has a bridge or a loop edge but as a side;
-/// what stands across a bridge is charged half to each of its sides.
+/// The candidates over the positions of a cut. Bridges and loop edges occur in triangles only as
+/// sides. The pair weight across a bridge is charged half to each of its sides.
 class CutProblem {
  public:
   /// `task` and `cut` have to outlive it.
@@ -55,10 +56,11 @@ class CutProblem {
   ///   leastPair  [slots] charged across bridges where nothing is known to stand
   bool build(ArrayView<const uint32_t> kept, const std::vector<double>& leastPair);
 
-  /// The best of it; `order` is in numbers of the task's set. False when the work ended.
+  /// Finds the best surface; `order` is in numbers of the task's set. False when the work ended.
   bool solve(uint64_t maxSplits, double& cost, SplitOrder& order);
 
-  /// Chords of the last solution that are this edge of the task's set. One of them may be forbidden.
+  /// Chords of the last solution that stand for this edge of the task's set.
+  /// forbid() rules one out.
   std::vector<uint32_t> chordsOf(uint32_t edge) const;
   void forbid(uint32_t chord);
 

@@ -10,16 +10,16 @@
 namespace sf {
 namespace {
 
-/// Shortest edges at each vertex that are looked at where the candidates are many.
+/// If candidates are many, only this many shortest edges at each vertex are looked at.
 constexpr size_t kNearEdges = 16;
-/// Tries to be rid of edges that a solution closes twice.
+/// Attempts to get rid of edges that a solution closes twice.
 constexpr int kRepairs = 8;
-/// Of the arrays kept here and of those that a cut takes.
+/// Bytes of the arrays kept here and of those that a cut takes.
 constexpr uint64_t kBytesPerCandidate = 150;
 /// Splits for a cut that leaves several loops: some milliseconds.
 constexpr uint64_t kSplitsOfCut = 200000;
 
-/// How often a random bridge has its loop go round the other way.
+/// How often the loop of a random bridge is passed the other way round.
 constexpr double kChanceOfTurning = 0.15;
 
 }  // namespace
@@ -152,7 +152,7 @@ void SurfaceSearch::joinLoop(std::vector<uint32_t>& polygon, uint32_t at, uint32
   for (size_t p = 0; p < polygon.size(); ++p)
     if (polygon[p] == at) places.push_back(p);
   const size_t place = places[size_t(random() * double(places.size()))];
-  // Round the loop in the direction that keeps the neighbours of the bridge's ends near.
+  // Goes round the loop in the direction that keeps the neighbours of the bridge's ends near.
   const Vec3 before = loops.position(polygon[(place + polygon.size() - 1) % polygon.size()]);
   const Vec3 after = loops.position(polygon[(place + 1) % polygon.size()]);
   const Vec3 next = loops.position(loops.next(v)), previous = loops.position(loops.previous(v));
@@ -175,7 +175,7 @@ BridgeCut SurfaceSearch::cutAtRandom(const std::vector<uint32_t>& preferred) {
   BridgeCut cut;
   std::vector<Bridge> byKey(bridges_);
   for (Bridge& b : byKey) {
-    // The shorter the rather, with some luck.
+    // Short edges tend to come first.
     b.key *= 0.25 + random();
     if (std::binary_search(preferred.begin(), preferred.end(), b.edge)) b.key = -random();
   }
@@ -218,14 +218,14 @@ bool SurfaceSearch::solveCut(const BridgeCut& cut, uint64_t maxSplits) {
     double cost;
     SplitOrder order;
     if (!problem.solve(maxSplits, cost, order)) return false;
-    // What has to be repaired is not worth it, unless what is left out makes up for that.
+    // A cut this dear is not worth a repair. The margin is for what its cost leaves out.
     if (cost == kInfinity || cost > known + 0.1 * std::fabs(known)) break;
     std::vector<uint32_t> badEdges;
     if (measureSurface(order, cost, badEdges)) {
       best_.offer(std::move(order), cost);
       break;
     }
-    // An edge of the surface that is two chords of the cut, or more: one of them has to go.
+    // If an edge of the surface is two chords of the cut, or more, one of them has to go.
     for (const uint32_t edge : badEdges) {
       const std::vector<uint32_t> chords = problem.chordsOf(edge);
       problem.forbid(chords[size_t(random() * double(chords.size()))]);
@@ -277,7 +277,7 @@ bool SurfaceSearch::search(uint32_t tries) {
     lookAtBest();
     if (idle_++ >= kMostIdle) break;
     const bool fresh = best_.cost() == kInfinity || idle_ % 8 == 0;
-    // One polygon mostly; two or three loops once that has got stuck.
+    // Mostly one polygon is solved; two or three loops once that gets stuck.
     const uint32_t left = idle_ > 60 && k > 3 && idle_ % 12 == 1  ? 3
                           : idle_ > 20 && k > 2 && idle_ % 3 == 1 ? 2
                                                                   : 1;

@@ -2,13 +2,13 @@
 // Source: none in Zou, Ju, Carr 2013; large neighbourhood search (Shaw 1998) over the paper's own
 // easy case, one polygon.
 //
-// A surface over k loops has edges that join different loops, its *bridges*. Cut along k - 1 of them
-// that make the loops a tree, it becomes a disc whose boundary is one polygon, with the ends of the
-// bridges repeated, and that polygon is solved in near-linear time: the best of all surfaces with
-// these bridges. So any tree of bridges gives a first surface, if there is one with them, and a
-// surface is improved by cutting it along others of its own bridges, now and then along one or two
-// fewer, so that two or three loops are solved for at once. What is left out, the angles across the
-// bridges, is charged by what stands across them now.
+// A surface over k loops has edges that join different loops, its *bridges*. Cut it along k - 1
+// bridges that make the loops a tree: it becomes a disc, bounded by one polygon in which the ends
+// of the bridges repeat. That polygon is solved in near-linear time, which gives the best of all
+// surfaces with these bridges. So any tree of bridges gives a first surface, if there is one with
+// them. A surface is improved by cutting it along others of its own bridges, now and then along one
+// or two fewer, so that two or three loops are solved at once. The polygon does not see the angles
+// across the bridges; they are charged against the triangles that stand there now.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -21,19 +21,19 @@
 
 namespace sf {
 
-/// Is told of every surface that is better than the one before.
+/// Receives every surface that is better than the one before.
 class SurfaceListener {
  public:
   virtual ~SurfaceListener() = default;
   ///   order       the triangles, in numbers of the candidate set
-  ///   lowerBound  of the objective, proven until now
+  ///   lowerBound  of the objective, proven so far
   virtual void better(const SplitOrder& order, double lowerBound) = 0;
 };
 
 /// The best surface of a pass so far.
 class Incumbent {
  public:
-  ///   lowerBound  of the objective, proven; raise() makes it better
+  ///   lowerBound  of the objective, proven; raise() increases it
   Incumbent(Measure measure, SurfaceListener* listener, double lowerBound = 0)
       : measure_(measure), listener_(listener), lowerBound_(lowerBound) {}
 
@@ -62,14 +62,14 @@ class SurfaceSearch {
   /// For several loops. O(c log c) time, some 100 bytes a candidate.
   SurfaceSearch(const Task& task, Incumbent& best);
 
-  /// Begins from these triangles if they are a surface of candidates, and else from the bridges that are
-  /// edges of theirs: of an earlier answer to loops that have been edited, say. What is no candidate any more
-  /// does no harm.
+  /// Begins from these triangles if they are a surface of candidates, else from those of their
+  /// edges that are bridges. They may be an earlier answer, to loops that have been edited since.
+  /// Triangles that are no longer candidates do no harm.
   ///   triangles  over the task's loops
   bool startFrom(const LoopTriangles& triangles);
 
-  /// Up to `tries` cuts, each about as expensive as one polygon of n + 2k - 2 vertices; fewer after
-  /// many in a row without success. False when the work ended.
+  /// Up to `tries` cuts, each about as expensive as one polygon of n + 2k - 2 vertices; fewer if
+  /// many in a row bring nothing better. False when the work ended.
   bool search(uint32_t tries);
 
  private:
@@ -83,15 +83,15 @@ class SurfaceSearch {
 
   double random();
   void keepNear();
-  /// Whether the triangles are a surface of candidates, which is then offered.
+  /// Offers the triangles if they are a surface of candidates; returns whether they are.
   bool offerAsIs(const LoopTriangles& triangles);
   /// What the triangles cost together; false, with the edges at fault, if they are no surface.
   bool measureSurface(const SplitOrder& order, double& cost, std::vector<uint32_t>& badEdges) const;
-  /// Edges that make the loops a tree, or `trees` trees, the earlier in the list the rather. Empty if
-  /// they do not suffice. Increasing.
+  /// Edges that join the loops to one tree, or to `trees` trees; edges early in the list come
+  /// first. Empty if the list does not suffice. Increasing.
   std::vector<uint32_t> chooseBridges(std::vector<Bridge>& byKey, uint32_t trees) const;
   /// A cut along random bridges, which need not be in any surface.
-  ///   preferred  edges to be taken first, increasing
+  ///   preferred  edges to take first, increasing
   BridgeCut cutAtRandom(const std::vector<uint32_t>& preferred);
   void joinLoop(std::vector<uint32_t>& polygon, uint32_t at, uint32_t v);
   /// A cut of the best surface that leaves `loops` loops.
@@ -102,10 +102,10 @@ class SurfaceSearch {
   const Task& task_;
   Incumbent& best_;
   Charge memory_;
-  std::vector<uint32_t> kept_;     // triangles that are looked at
+  std::vector<uint32_t> kept_;     // triangles to look at
   std::vector<Bridge> bridges_;    // edges between loops
   std::vector<double> leastPair_;  // [slots]
-  double costOfUses_ = kInfinity;  // of the surface that uses_ is of
+  double costOfUses_ = kInfinity;  // of the surface whose edges are in uses_
   std::vector<EdgeUse> uses_;      // edges of the best surface
   uint64_t seed_ = 1;
   uint32_t idle_ = 0;

@@ -11,7 +11,8 @@
 namespace sf {
 namespace {
 
-// A piece is split between these shares of its length, at corners up to the second one.
+// Limits on where a piece is split, as shares of its length: next to an encroacher,
+// and at a corner.
 constexpr double kLeastShare = 0.3, kGreatestRadius = 0.9;
 // The share of the missing pieces, most encroached upon first, that are split in one round.
 constexpr double kWorstShare = 0.25;
@@ -124,9 +125,9 @@ bool Protection::breakTies() {
 
 // For each missing piece the vertex that sees it at the widest angle, more than 90 degrees. There
 // is one among the Delaunay neighbours of either end: let the piece from a to b leave the star of a
-// through the facet x y z. If x, y, z were outside of the piece's diametral ball B, then in the half
-// space in which the power to the circumsphere S of a x y z is at most that to B. The piece leaves
-// that triangle's half space at a, though, since b is outside of S.
+// through the facet x y z. If x, y, z were outside of the piece's diametral ball B, they would lie
+// in the half space where the power to the circumsphere S of a x y z is at most that to B. But the
+// piece leaves that triangle's half space at a, since b is outside of S.
 void Protection::findEncroachers() {
   encroacher_.assign(p_.size(), {});
   auto consider = [&](uint32_t a, uint32_t x) {
@@ -143,8 +144,9 @@ void Protection::findEncroachers() {
   });
 }
 
-// Leaves the pieces that are most encroached upon, and no two of them at one vertex: often one split
-// brings back the others. Star shapes take a fifth of the vertices that they would take otherwise.
+// Keeps only the pieces that are most encroached upon, and no two of them at one vertex: often one
+// split brings back the others. Star shapes take a fifth of the vertices that
+// they would take otherwise.
 void Protection::chooseWorst() {
   std::vector<double> cosines;
   for (uint32_t a : missing_) cosines.push_back(encroacher_[a].cosine);

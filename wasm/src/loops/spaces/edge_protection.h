@@ -1,10 +1,10 @@
 // Edge protection: vertices put on loop edges until all edges are Delaunay.
 // Source: Zou, Ju, Carr 2013, sec. 4.2; Shewchuk 2002, "Constrained Delaunay tetrahedralizations
 // and provably good boundary recovery", sec. 3, for the two kinds of splits.
-// Differs: only edges that are missing are split, whether or not their diametral spheres are empty,
-// and corners are cut only where an edge at the corner is missing for the sake of the other one.
-// Edges that are missing because of ties among co-spherical points are first looked for by breaking
-// the ties in other ways.
+// Differs: only edges that are missing are split, whether or not their diametral spheres are empty.
+// Corners are cut only where one edge at the corner is missing because of the other. Edges that are
+// missing because of ties among co-spherical points are first looked for by breaking the ties in
+// other ways.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -29,14 +29,14 @@ struct ProtectedLoops {
   std::vector<uint32_t> facets;          // [3f] of the tetrahedralization of `loops`; see below
 };
 
-/// Puts vertices on loop edges such that every edge of the enriched loops is an edge of their
-/// Delaunay tetrahedralization, and hence of at least one facet; none if that holds at once.
-/// The facets are increasing triples of vertices of `result.loops`, in lexicographic order. Coplanar
-/// loops have the triangles of their planar triangulation, collinear ones no facets.
+/// Puts vertices on loop edges until every edge of the enriched loops is an edge of their Delaunay
+/// tetrahedralization, and hence of at least one facet. Puts none if that holds from the start.
+/// The facets are increasing triples of vertices of `result.loops`, in lexicographic order.
+/// Coplanar loops have the triangles of their planar triangulation, collinear ones no facets.
 ///   loops   that pass checkLoops with `intersections`
 ///   result  inserted vertices lie at a + t (b - a), rounded; no two vertices are equal
-/// Status Ok, OutOfMemory, Stopped, or NotFound if more than 50 n + 1000 vertices were needed or the
-/// loops come closer to each other than rounding can tell.
+/// Status Ok, OutOfMemory, Stopped, or NotFound if more than 50 n + 1000 vertices were needed or
+/// the loops come closer to each other than rounding can resolve.
 Status protectEdges(const LoopSet& loops, Work& work, ProtectedLoops& result);
 
 }  // namespace sf

@@ -15,13 +15,13 @@ namespace {
 using Triangle = std::array<uint32_t, 3>;
 
 constexpr uint32_t kMostVertices = 2000;
-/// Discs of one triangle that are tried, the nearest ones, and of those the ones that are let grow.
+/// How many discs of one triangle are tried, the nearest ones, and how many of these may grow.
 constexpr size_t kDiscs = 12, kGrown = 3;
-/// Sides that a disc grows to at most.
+/// The most sides of a disc.
 constexpr size_t kMostSides = 12;
-/// Corners of the disc's boundary at which a band may begin, the nearest to the loop.
+/// How many corners of the disc's boundary, the nearest to the loop, a band may begin at.
 constexpr size_t kBeginnings = 2;
-/// Nanoseconds of a cell of a band's table.
+/// Nanoseconds for each cell of a band's table.
 constexpr uint32_t kTimeOfCell = 100;
 
 /// The triangles so far, wound alike.
@@ -156,16 +156,16 @@ Patchwork::Disc Patchwork::grown(const Disc& disc, size_t side) const {
   return larger;
 }
 
-/// The best band that begins with the first side of the boundary at the first vertex of the way, and ends
-/// with the last side of the way at the first vertex of the boundary. So each pair of a vertex of either is
-/// an edge of it once at most.
+/// The best band that begins with the first side of the boundary at the first vertex of the way,
+/// and ends with the last side of the way at the first vertex of the boundary. So a vertex of the
+/// boundary and one of the way are joined by an edge of the band at most once.
 ///   around  across each side of the boundary
 ///   way     the loop, in the direction opposite to that in which the band passes it
 void Patchwork::sewFrom(const std::vector<uint32_t>& boundary, const Around& around,
                         const std::vector<uint32_t>& way, Band& best) {
   const size_t p = boundary.size(), l = way.size();
-  // A state is an edge of the band, from boundary i to way j, with the triangle before it: one along the
-  // boundary (0), or along the way (1).
+  // A state is an edge of the band, from boundary i to way j, with the triangle before it: one
+  // along the boundary (0), or along the way (1).
   struct State {
     double cost = kInfinity;
     uint8_t from = 0;
@@ -176,7 +176,7 @@ void Patchwork::sewFrom(const std::vector<uint32_t>& boundary, const Around& aro
     return table[((i * (l + 1)) + j) * 2 + size_t(move)];
   };
   const auto triangleOf = [&](size_t i, size_t j, int move) -> Triangle {
-    // Of the edge (i, j), the triangle before it.
+    // The triangle before the edge (i, j).
     if (move == 0) return {boundary[i - 1], boundary[i % p], way[j % l]};
     return {boundary[i % p], way[j % l], way[j - 1]};
   };

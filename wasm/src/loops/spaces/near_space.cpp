@@ -15,26 +15,28 @@ namespace {
 
 using Corners = std::vector<PolygonChart::Corner>;
 
-/// Triangles taken for each vertex: of one loop, and of two for each bridge.
+/// Triangles taken for each vertex: of one loop; of two, for each bridge.
 constexpr size_t kPerVertex = 6;
 constexpr size_t kPerVertexAndBridge = 4;
-/// By how much of the least cost the surfaces of those triangles may be dearer.
+/// How much dearer than the best surface the surfaces of those triangles may be,
+/// as a share of its cost.
 constexpr double kDearer = 0.05, kDearerWithBridge = 0.4;
-/// Of the bridges tried, those whose triangles are taken: by cost, of all and of the valid ones. At
-/// least so many, and one for so many vertices.
+/// How many of the bridges tried give their triangles: the cheapest of all, and the cheapest valid
+/// ones. At least the first number, or one for as many vertices as the second.
 constexpr size_t kTaken = 8, kVerticesPerTaken = 5;
 /// The same for a bridge of two loops without angles.
 constexpr size_t kPlainPerVertex = 2;
 constexpr double kPlainDearer = 0.1;
 constexpr uint32_t kPlainBridges = 6;
-/// Vertices for each bridge that is tried: of a surface, and of short ones in two directions.
+/// Vertices for each bridge that is tried: bridges of a surface; short ones,
+/// each in two directions.
 constexpr uint32_t kVerticesPerBridge = 4, kVerticesPerShortBridge = 3;
 constexpr uint32_t kLeastBridges = 10, kMostBridges = 16;
-/// Vertices beyond which the chart of one loop is too dear, and the solution of two loops over triangles
-/// from several charts.
+/// The most vertices for which the chart of one loop is affordable, and for two loops the solution
+/// over triangles from several charts.
 constexpr uint32_t kMostVertices = 4000, kMostOfTwoLoops = 120;
 
-/// Appends the vertices of a loop from `start` once round and to `start` again, or all but that.
+/// Appends the vertices of a loop from `start` once round; if `closed`, `start` again.
 void walk(const LoopSet& loops, const TriangleWeights& weights, uint32_t start, bool forward,
           bool closed, Corners& corners) {
   const uint32_t size = loops.size(loops.loopOf(start));
@@ -125,7 +127,7 @@ class BridgeSearch {
   std::vector<std::pair<uint32_t, uint32_t>> edges_;  // scratch
 };
 
-/// Whether each loop edge has one of the triangles, and every other edge of theirs two.
+/// Whether each loop edge is in one of the triangles, and every other edge of theirs in two.
 bool BridgeSearch::isValid(const Corners& corners,
                            const std::vector<PolygonChart::Triangle>& surface) {
   edges_.clear();
@@ -188,7 +190,7 @@ std::vector<Bridge> bridgesOf(const LoopTriangles& triangles) {
     if (loops.next(u) == v && loops.next(v) != u) isForward[loops.loopOf(u)] = true;
     if (loops.loopOf(u) < loops.loopOf(v)) edges.push_back({u, v});
   }
-  // In the order in which they follow each other around.
+  // Sorted, they follow each other around.
   sf::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   const size_t count = std::min<size_t>(

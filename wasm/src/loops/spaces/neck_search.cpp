@@ -8,7 +8,7 @@
 namespace sf {
 namespace {
 
-/// Triangles of each loop that are tried, and necks that are kept.
+/// How many triangles of each loop are tried, and how many necks are kept.
 constexpr size_t kOpenings = 500, kNecks = 20;
 
 /// A triangle left out of a disc.
@@ -26,8 +26,8 @@ struct Neck {
 };
 bool operator<(const Neck& x, const Neck& y) { return x.cost < y.cost; }
 
-/// The orders of three steps along either opening. Never three along one of them at once, the last
-/// before the first: both edges of the ring at those three would be the same.
+/// The orders of three steps along either opening. Three steps along one of them are never
+/// consecutive, counted all around: the two edges of the ring beside them would be the same.
 struct Rings {
   uint32_t count = 0, steps[20];
   Rings() {
@@ -67,7 +67,7 @@ class NeckSearch {
   const Rings rings_;
 };
 
-/// Of the triangles over edge uv with the third vertex on the other loop.
+/// The least cost of triangles over edge uv with the third vertex on the other loop.
 double NeckSearch::leastAcross(uint32_t u, uint32_t v) const {
   const uint32_t other = 1 - loops_.loopOf(u), first = loops_.first(other);
   double least = kInfinity;
@@ -120,7 +120,7 @@ void NeckSearch::join(const Opening& a, const Opening& b, bool reversed) {
   for (uint32_t turn = 0; turn < 3; ++turn) {
     uint32_t at[3];
     for (uint32_t i = 0; i < 3; ++i) at[i] = b.vertex[(reversed ? turn + 3 - i : turn + i) % 3];
-    // Of the triangles that step on from corner i of a and j of b.
+    // Costs of the triangles that step on from corner i of a and corner j of b.
     double onA[3][3], onB[3][3];
     for (uint32_t i = 0; i < 3; ++i)
       for (uint32_t j = 0; j < 3; ++j) {
@@ -153,7 +153,7 @@ void NeckSearch::append(const Neck& neck, std::vector<uint32_t>& triples) const 
       triples.insert(triples.end(), {neck.a[i], neck.a[(i + 1) % 3], neck.b[j % 3]});
       ++i;
     }
-  // What is left of the discs.
+  // Adds what is left of the discs.
   for (uint32_t loop = 0; loop < 2; ++loop) {
     uint32_t at[3];
     for (int c = 0; c < 3; ++c) at[c] = (loop == 0 ? neck.a : neck.b)[c] - loops_.first(loop);
@@ -184,7 +184,8 @@ bool neckTriples(const LoopSet& loops, const TripleWeights& weights, Work& work,
 }
 
 double bytesForNecks(double n) {
-  // The table, the triples of one loop at most, and a polygon over both, walked from a bridge.
+  // The table of weights, the triples of at most one loop, and a polygon over both,
+  // walked from a bridge.
   const double m = n + 2;
   return n * n * n * (sizeof(double) + sizeof(Opening) / 6.0) + m * m * 24;
 }

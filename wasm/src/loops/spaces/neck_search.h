@@ -1,10 +1,10 @@
 // Two loops whose cost counts no angles: a disc in each, and the best *necks* between the two.
 // Source: none in Zou, Ju, Carr 2013.
 //
-// A surface over two loops that lie apart costs least when it is next to two discs. It cannot be
-// just these: it has to be connected, and no edge may have more than two triangles. The least that
-// does it is a triangle taken out of either disc, and six triangles that join their edges, three
-// with two vertices on one loop and three on the other, all around.
+// A surface over two loops that lie apart is cheapest if it is nearly two discs. It cannot be just
+// these: it has to be connected, and no edge may have more than two triangles. The smallest change
+// that connects them takes one triangle out of each disc, and joins the edges of the two openings
+// by a ring of six triangles: three with two vertices on one loop, and three with two on the other.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -15,16 +15,16 @@
 
 namespace sf {
 
-/// Appends the triangles of the least costly surfaces of that kind, some tens of them: three vertices
-/// each, in any order, repeated. Of each loop only some hundreds of openings are tried, those that
-/// promise most. False when the work ended. O(n^3) and some ten thousand rings; takes memory that the
-/// caller has charged, see bytesForNecks.
+/// Appends the triangles of the cheapest surfaces of that kind, some tens of them: three vertices
+/// each, in any order, repeated. Of each loop only some hundreds of openings are tried, the most
+/// promising ones. False when the work ended. O(n^3) time and some ten thousand rings. The caller
+/// charges the memory, see bytesForNecks.
 ///   loops    two, in any units
 ///   weights  of their triples
 bool neckTriples(const LoopSet& loops, const TripleWeights& weights, Work& work,
                  std::vector<uint32_t>& triples);
 
-/// Bytes that the weights of n vertices' triples and neckTriples take together, at most.
+/// The most bytes that neckTriples and the weights of all triples of n vertices take together.
 double bytesForNecks(double n);
 
 }  // namespace sf

@@ -9,7 +9,7 @@
 namespace sf {
 namespace {
 
-/// Of the angle at a corner: sines up to this are those of collinear vertices.
+/// Vertices count as collinear if the sine of the angle at a corner is at most this.
 constexpr double kThin = 1e-6;
 
 }  // namespace
@@ -43,7 +43,7 @@ void PlainPolygon::compute(std::vector<uint32_t> vertices) {
     for (uint32_t first = 0; first < m; ++first) {
       const uint32_t last = (first + steps) % m;
       const uint32_t u = vertices_[first], v = vertices_[last];
-      // A segment over a loop edge would give that a second triangle.
+      // A segment over a loop edge would give this edge a second triangle.
       if (u == v || (steps < m - 1 && loops_.isLoopEdge(u, v))) continue;
       double best = kInfinity;
       uint32_t apex = kNone;

@@ -10,12 +10,13 @@
 namespace sf {
 namespace {
 
-/// Cost of what is not to be had.
+/// The cost of what does not exist.
 constexpr float kNever = std::numeric_limits<float>::infinity();
 constexpr float kMost = std::numeric_limits<float>::max();
 /// Corners up to which every segment is kept.
 constexpr uint32_t kAllSegments = 150;
-/// Beyond: all segments up to this length, and of longer ones so many at each corner and octave.
+/// With more corners, all segments up to this length are kept, and of longer ones this many at each
+/// corner and octave.
 constexpr uint32_t kShortSegment = 24;
 constexpr double kKeptPerOctave = 40;
 /// Corners beyond which fewer are kept, so that the number kept grows with n log n.
@@ -24,12 +25,13 @@ constexpr double kManyCorners = 1000;
 constexpr double kSplitPerKept = 1.15;
 /// Of segments up to this length all apexes are tried.
 constexpr uint32_t kTryAll = 8;
-/// Of longer ones those whose bound is above the least one by at most so much: of what was the mean
-/// excess of the cost over that bound, and of what the excess then turns out to be.
+/// Of longer ones those whose bound is above the least one by at most a gap: this share of the mean
+/// excess of earlier costs over that bound, and of the excess that then turns out.
 constexpr float kUsualGap = 0.9f, kOwnGap = 0.6f;
-/// The second of these gaps is wanted when it is so much wider than the first.
+/// The second gap is used if it is wider than the first by this factor.
 constexpr float kWider = 1.5f;
-/// With more apexes than this within the usual gap it is narrowed, at most so often.
+/// If more apexes than this are within the usual gap, it is narrowed by a factor,
+/// at most this often.
 constexpr uint32_t kManyApexes = 20;
 constexpr int kMostNarrowings = 4;
 constexpr float kNarrower = 0.6f;
@@ -83,8 +85,8 @@ inline Float4 leastOfLanes(Float4 a, Float4 b, Float4 c, Float4 d) {
 }
 
 /// The angle between unit vectors is about root(u) (c0 + c1 u + c2 u^2 + c3 u^3), where u is 1 less
-/// their product: fitted to within .011 rad up to 2.6 rad, beyond which it is too small by up to .28.
-/// Another term makes the surfaces found no better.
+/// their product. The fit is within .011 rad up to 2.6 rad; beyond that it is too small by up to
+/// .28. Another term makes the surfaces found no better.
 constexpr float kAngle[4] = {1.3535858f, 0.4321578f, -0.3861121f, 0.1696036f};
 /// A little more than 1, so that roots are of positive numbers.
 constexpr float kOne = 1.000002f;
@@ -122,8 +124,8 @@ inline Float4 PolygonChart::costsFrom(const Splits& s, Normal n) const {
   return s.cost + angles(zero + n.x, zero + n.y, zero + n.z, s.x, s.y, s.z);
 }
 
-/// Costs of splits of a segment, four at once, with the normals of their triangles: of those
-/// that are thick enough to tell a normal; infinity for the others.
+/// Costs of splits of a segment, four at once, with the normals of their triangles. Infinity for
+/// triangles too thin to have a normal.
 void PolygonChart::weigh(uint32_t first, uint32_t last, Tried& t) const {
   const Normal p = positions_[first], r = positions_[last];
   const float ex = r.x - p.x, ey = r.y - p.y, ez = r.z - p.z;
@@ -192,8 +194,8 @@ inline void PolygonChart::choose(Tried& t, Splits& s, Segment& segment) const {
   }
 }
 
-/// The least bound of the apexes of a segment: the cost of what lies behind their triangles. Keeps all of
-/// them, up to a multiple of four, if they are wanted.
+/// The least bound of the apexes of a segment: the cost of what lies behind their triangles. If
+/// `wanted`, keeps all bounds, up to a multiple of four.
 template <bool wanted>
 inline float PolygonChart::boundApexes(uint32_t first, uint32_t last) {
   const float* left = &cost_[size_t(first) * n_ + first + 1];
@@ -229,7 +231,7 @@ inline void PolygonChart::selectApexes(uint32_t first, uint32_t last, float most
   apexCount_ = chosen;
 }
 
-/// Drops those whose bound is above `most` from apexes_.
+/// Drops from apexes_ those whose bound is above `most`.
 inline void PolygonChart::narrowApexes(uint32_t first, float most) {
   uint32_t chosen = 0;
   for (uint32_t q = 0; q < apexCount_; ++q) {
@@ -240,12 +242,12 @@ inline void PolygonChart::narrowApexes(uint32_t first, float most) {
   apexCount_ = chosen;
 }
 
-/// The cheap ones of the splits at apexes_.
+/// Chooses the cheap ones among the splits at apexes_.
 void PolygonChart::tryApexes(uint32_t first, uint32_t last, Splits& s, Segment& segment) {
   Tried& t = tried_;
   t.count = 0;
   for (uint32_t q = 0; q < apexCount_;) {
-    // The best ones of those before stay in.
+    // The best of the apexes tried before stay in.
     while (t.count < kRoom && q < apexCount_) t.apex[t.count++] = apexes_[q++];
     for (uint32_t i = t.count; i % 4 != 0; ++i) t.apex[i] = t.apex[0];
     weigh(first, last, t);
@@ -299,7 +301,7 @@ void PolygonChart::keep(const Splits& splits, const Segment& segment) {
 void PolygonChart::addEdges() {
   for (uint32_t i = 0; i + 1 < n_; ++i) {
     Splits s = noSplits();
-    // No normal is at a right angle to all: that is taken back.
+    // A zero normal is at a right angle to all; the cost of that angle is subtracted here.
     const Splits none = {};
     s.cost[0] = -costsFrom(none, {0, 0, 0})[0];
     if (corners_[i].hasFace) {
@@ -327,7 +329,7 @@ void PolygonChart::findPrices() {
   }
 }
 
-/// Keeps so many of the ranked segments, the least ones.
+/// Keeps the `count` least of the ranked segments.
 void PolygonChart::keepLeast(std::vector<Ranked>& ranked, size_t count) {
   if (ranked.size() <= count) return;
   const auto end = ranked.begin() + std::ptrdiff_t(count);
@@ -336,8 +338,8 @@ void PolygonChart::keepLeast(std::vector<Ranked>& ranked, size_t count) {
 }
 
 /// Of the segments of one length, those with the least bounds are split, and of these the cheapest
-/// are kept: all of them while there are few. Both beside what such a stretch of the polygon costs
-/// anyway: else those where it is smooth would drive out all others.
+/// are kept: all of them while there are few. Both are compared with what such a stretch of the
+/// polygon costs on average. Otherwise segments where it is smooth would drive out all others.
 bool PolygonChart::computeLength(uint32_t length) {
   const uint32_t count = n_ - length;
   const size_t most = mostKept(n_, length);
@@ -425,7 +427,7 @@ void PolygonChart::trace(std::vector<Triangle>& triangles) const {
     if (open.last - open.first < 2) continue;
     const uint32_t number = number_[size_t(open.first) * n_ + open.last];
     const Splits& s = splits_[number];
-    // At the root no normal is across: the angle is the same for all then.
+    // At the root no normal is across, so the angle is the same for all.
     const Float4 cost = costsFrom(s, open.across);
     uint32_t best = 0;
     for (uint32_t q = 1; q < kSplits; ++q)
@@ -442,8 +444,8 @@ void PolygonChart::nearBest(double mostExcess, size_t most, std::vector<Triangle
   triangles.clear();
   if (best_ == kInfinity) return;
   const float limit = float(mostExcess);
-  // From the root inwards: the excess of a split is that of the triangle across, and what it costs
-  // there more than the best one.
+  // From the root inwards: the excess of a split is that of the triangle across, plus what it costs
+  // there beyond the best split.
   std::vector<float> excess(kSplits * splits_.size(), kNever);
   std::vector<std::vector<uint32_t>> byLength(n_);
   std::vector<uint8_t> isReached(splits_.size(), 0);

@@ -1,10 +1,11 @@
-// The cheap splits of every segment of one polygon: where near-optimal surfaces are looked for.
-// Source: eq. 2 of Zou, Ju, Carr 2013, sec. 3.1, truncated: of the triangles that may stand across a
-// segment only the few cheapest are kept, in place of all of them.
-// Differs: eq. 2 wants the best inner triangle for each outer one. Dihedral angles are distances on
+// The cheap splits of every segment of one polygon, in which near-optimal surfaces are looked for.
+// Source: eq. 2 of Zou, Ju, Carr 2013, sec. 3.1, truncated: of the triangles that may stand across
+// a segment only the few cheapest are kept, in place of all of them.
+// Differs: eq. 2 needs the best inner triangle for each outer one. Dihedral angles are distances on
 // the sphere of normals, so a triangle whose cost exceeds that of another by at least the angle
-// between the two is never wanted; of the others the cheapest are nearly always enough. The price is
-// single precision, a handful of triangles tried for each of n^2 / 2 segments, and no proof.
+// between the two is never needed; of the others the cheapest are nearly always enough. In return
+// it has only single precision, tries a handful of triangles for each of n^2 / 2 segments, and
+// proves nothing.
 #pragma once
 #include <cstdint>
 #include <utility>
@@ -18,15 +19,15 @@ namespace sf {
 
 class PolygonChart {
  public:
-  /// A closed polygon over vertices of the loops, which may come up more than once in it.
+  /// A corner of a closed polygon over vertices of the loops; a vertex may be at several corners.
   struct Corner {
     uint32_t vertex;
     bool hasFace;  // a face is given across the edge to the next corner,
     Vec3 normal;   // with this unit normal, for the polygon's direction
   };
 
-  /// Triangles: their vertices in the order of the polygon, and how much the surface that holds them
-  /// costs beyond the best one, as far as the chart knows.
+  /// A triangle: its corners in the order of the polygon, and its excess. That is how much more
+  /// than the best surface the best one with this triangle costs, of those in the chart.
   struct Triangle {
     float excess;
     uint32_t corner[3];  // increasing
@@ -35,16 +36,16 @@ class PolygonChart {
   /// weights: without own weights; `normals` is not read.
   PolygonChart(const LoopSet& loops, const TriangleWeights& weights, Work& work);
 
-  /// Fills the chart. False when the work ended. O(n^2) segments, each O(n) steps of a fraction of a
-  /// nanosecond and some ten triangles; of long polygons only O(n log n) segments are kept.
+  /// Fills the chart. False when the work ended. O(n^2) segments, each O(n) steps of a fraction of
+  /// a nanosecond and some ten triangles; of long polygons only O(n log n) segments are kept.
   bool compute(std::vector<Corner> corners);
 
-  /// The cost of the best surface in the chart; infinity if there is none. About: single precision.
+  /// The cost of the best surface in the chart, in single precision; infinity if there is none.
   double best() const { return best_; }
-  /// The best surface: appends n - 2 triangles with excess 0. The first is at the edge that closes the
-  /// polygon, the last corner with the first. Precondition: best() is finite.
+  /// The best surface: appends n - 2 triangles with excess 0. The first is at the edge that closes
+  /// the polygon, the last corner with the first. Precondition: best() is finite.
   void trace(std::vector<Triangle>& triangles) const;
-  /// Up to `most` triangles of excess up to `excess`, the least ones.
+  /// Appends up to `most` triangles whose excess is at most `excess`: those of least excess.
   void nearBest(double excess, size_t most, std::vector<Triangle>& triangles);
 
   /// Bytes that a polygon of n corners takes.
@@ -66,7 +67,7 @@ class PolygonChart {
   struct Normal {
     float x, y, z;
   };
-  /// Apexes that are tried for a segment: costs and normals, and room for a group of four more.
+  /// The apexes tried for a segment: costs and normals, and room for a group of four more.
   struct Tried {
     uint32_t count;
     uint32_t apex[kRoom + 4];

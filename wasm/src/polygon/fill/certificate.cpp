@@ -7,8 +7,9 @@
 namespace sf {
 namespace {
 
-/// A sum of directed edges that are to cancel: a table of those that still wait for their opposites.
-/// Triangles mostly come next to each other, so few wait at a time; often none, hence no table.
+/// A sum of directed edges that have to cancel: a table of those that still wait for their
+/// opposites. Triangles mostly come next to each other, so few wait at a time, often none; the
+/// table is then not made.
 class OpenEdges {
  public:
   explicit OpenEdges(Charge& charge) : charge_(charge) {}
@@ -32,7 +33,7 @@ class OpenEdges {
   /// Both directions of an edge have one home.
   static uint64_t key(uint32_t u, uint32_t v) { return uint64_t(u) << 32 | v; }
   size_t mask() const { return slots_.size() - 1; }
-  /// Edges between the same two groups of eight vertices are kept together: neighbours are wanted
+  /// Edges between the same two groups of eight vertices are kept together: they are looked up
   /// one after the other.
   size_t home(uint64_t k) const {
     const uint32_t u = uint32_t(k >> 32), v = uint32_t(k);
@@ -46,7 +47,7 @@ class OpenEdges {
     while (slots_[i] != kFree) i = (i + 1) & mask();
     slots_[i] = k;
   }
-  /// Empties slot i, and moves up those behind it that would not be found any more.
+  /// Empties slot i, and moves up those behind it that would be lost otherwise.
   void takeOut(size_t i) {
     --count_;
     for (size_t j = i;;) {
@@ -74,11 +75,11 @@ class OpenEdges {
   size_t count_ = 0;
 };
 
-/// Whether no triangle is turned over, and the boundary of all is that of the rings, or of the frame less
-/// the rings.
-///   wanted  [m] the edge that has to be left over at each point; where there are more, the others are
-///           taken away. kNone, and again kNone if true is returned
-///   same    of the certificate; a function, so that where all points differ nothing is looked up
+/// Whether no triangle is turned over, and the boundary of all is that of the rings; or with
+/// `frame`, of the frame less the rings.
+///   wanted  [m] for each point an edge from it that has to be left over; further ones are
+///           subtracted in the table. All kNone before, and after if true is returned
+///   same    of the certificate; a function, so that nothing is looked up if all points differ
 template <class Same>
 bool boundsRings(const Certificate& c, bool frame, Same same, std::vector<uint32_t>& wanted,
                  Work& work) {
@@ -107,7 +108,7 @@ bool boundsRings(const Certificate& c, bool frame, Same same, std::vector<uint32
   const auto take = [&](uint32_t h, uint32_t u, uint32_t v) {
     const uint32_t g = h < paired ? twins[h] : kNone;
     if (g < paired) {
-      // That g ends where h begins is seen from g.
+      // At g it is checked that g ends where h begins.
       agree &= (twins[g] == h) & (corners[nextInTriangle(g)] == v);
       return;
     }

@@ -11,28 +11,30 @@
 
 namespace sf {
 
-/// What certify looks at.
+/// The input of certify.
 struct Certificate {
-  Buffer<Point2> at;           // [m] points: the input's, and last the four corners of a frame,
-                               // counter-clockwise
-  std::vector<uint32_t> same;  // [m] for each point one at the same place, itself if none is; empty
-                               // where no two are at one place
-  Buffer<uint32_t> rings;      // [2e] edges u -> v of the rings, the polygon to the left
-  Buffer<uint32_t> inside;     // [3t] triangles of the polygon
+  Buffer<Point2> at;            // [m] points: the input's, and last the four corners of a frame,
+                                // counter-clockwise
+  std::vector<uint32_t> same;   // [m] for each point one that stands for all at its
+                                // place; empty where no two are at one place
+  Buffer<uint32_t> rings;       // [2e] edges u -> v of the rings, the polygon to the left
+  Buffer<uint32_t> inside;      // [3t] triangles of the polygon
   Buffer<uint32_t> complement;  // [3s] triangles of the frame without the polygon
-  // What is known of half-edges that are opposites of each other, named as in ClosableTwins: of the first
-  // half-edges so many, up to 3t or 3s, each has another one of them, or any larger number where nothing is
-  // known. What is said has to be right.
+  // Pairs of half-edges known to be opposites, numbered as in ClosableTwins. Among the first
+  // insidePaired half-edges (at most 3t) or complementPaired ones (at most 3s), each names another
+  // one of them, or any number beyond them if none is known. certify checks the pairs, and is false
+  // if one is wrong.
   size_t insidePaired = 0, complementPaired = 0;
-  Buffer<uint32_t> insideTwins, complementTwins;  // at least so many
+  Buffer<uint32_t> insideTwins, complementTwins;  // at least as many
 };
 
-/// Whether the triangles prove by themselves that the rings wind 0 or 1 times around every point off
-/// them, and that they cover the points of 1 once and no others: all numbers are finite, no triangle is
-/// turned over, by exact orient2d, and the sums of the triangles' boundaries are that of the rings inside,
-/// and the frame less the rings outside. O(m + t + s) time and memory, charged to `work`; false too once
-/// `work` is to end.
-/// What has no area does not count: spikes, and edges that run to and fro, are the sweep's to find.
+/// Whether the triangles alone prove that the rings wind 0 or 1 times around every point off them,
+/// and that the triangles cover the points of winding number 1 once and no others. This holds if
+/// all numbers are finite; no triangle is turned over, by exact orient2d; the boundaries of the
+/// inner triangles sum to the rings; and those of the complement's to the frame less the rings.
+/// O(m + t + s) time and memory, charged to `work`. False too once `work` is to end.
+/// Parts without area do not count: spikes, and edges that run to and fro,
+/// are for the sweep to find.
 bool certify(const Certificate& certificate, Work& work);
 
 }  // namespace sf

@@ -10,18 +10,20 @@
 namespace sf {
 namespace {
 
-// Of triangles in any order so many next to each other are a block, or twice as many that are all there are.
-// Within it flips are fewer than what merges have to prepare, also on smooth curves; measured.
+// Size of a block of triangles in any order, all next to each other; a list of up to twice as many
+// is one block. At this size flips are less work than what merges would need, also on smooth
+// curves; measured.
 constexpr uint32_t kBlockHalves = 3 * 32, kFewHalves = 2 * kBlockHalves;
-// Of triangles of flooding at most so many, for which so many flips in all, and so many a triangle, are
-// enough: where flips become more, merges are less work; measured.
+// A block of triangles from flooding ends at this size, or once its flips exceed kFlips and
+// kFlipsPerTriangle for each triangle. If flips become more, merges are less work; measured.
 constexpr uint32_t kMostHalves = 3 * 256;
 constexpr int32_t kFlips = 48, kFlipsPerTriangle = 2;
-// Triangles are near each other in the list if they are in the same 2^4 of them.
+// Triangles are near each other in the list if they are in the same group of 2^4.
 constexpr int kNearBits = 4;
 constexpr int kLevels = 32;
 
-/// How far apart two triangles are in the list: the first binary digit in which their places differ.
+/// How far apart two triangles are in the list:
+/// the first binary digit in which their places differ.
 int levelOf(uint32_t t, uint32_t s) {
   int level = 0;
   for (uint32_t d = (t ^ s) >> kNearBits; d != 0; d >>= 1) ++level;
@@ -32,8 +34,8 @@ int levelOf(uint32_t t, uint32_t s) {
 
 bool ConstrainedDelaunay::begin(const LinkedPolygon& loops, ArrayView<uint32_t> triangles,
                                 ClosableTwins& twins, Charge& charge) {
-  // Borders and triangles of merges, 20 bytes a triangle; edges to look at and whether they are, closed
-  // edges and their far sides.
+  // Memory: borders and triangles of merges, 20 bytes a triangle; the edges to look at, and a mark
+  // for each; closed edges and their far sides.
   constexpr uint64_t kPerCorner = 6 * sizeof(uint32_t);
   count_ = uint32_t(triangles.size());
   if (!charge.add(kPerCorner * count_ + sizeof(Point2) * uint64_t(loops.at.size()))) return false;
@@ -89,22 +91,22 @@ bool ConstrainedDelaunay::insertBlocks(Work& work) {
   return true;
 }
 
-/// Inserts the first corner of a triangle into those before it in the block: flips edges into ones from it,
-/// until none that it sees is illegal. Returns how many.
+/// Inserts the first corner of a triangle into the triangles before it in the block. Flips edges,
+/// which then start at that corner, until it sees no illegal one. Returns the number of flips.
 ///   first  the triangle's first half-edge
 uint32_t ConstrainedDelaunay::insert(uint32_t first) {
   const uint32_t end = first + 3, apex = corners_[first];
   const Point2 c = metric_[apex];
-  // Whether the corner that half-edge g, from b to a, sees lies inside the circle through a, b, c. What
-  // comes later in the list is closed for now.
+  // Whether the corner that half-edge g, from b to a, sees lies inside the circle through a, b, c.
+  // Triangles later in the list count as closed.
   const auto isIllegal = [&](Point2 a, Point2 b, uint32_t g) {
     return g < end && inCircle(a, b, c, metric_[corners_[g]], error_);
   };
   uint32_t* const waiting = stack_.data();
   uint32_t count = 0, flips = 0, t = first;
   if (!isIllegal(metric_[corners_[t + 1]], metric_[corners_[t + 2]], twins_[t])) return 0;
-  // The edge opposite the apex is illegal in the triangle of t, its first half-edge; the flip leaves two
-  // triangles at the apex, of t and s.
+  // The edge opposite the apex is illegal in the triangle whose first half-edge is t. The flip
+  // leaves two triangles at the apex, with first half-edges t and s.
   for (;;) {
     const uint32_t g = twins_[t], g1 = nextInTriangle(g), g2 = prevInTriangle(g);
     const uint32_t s = std::min(std::min(g, g1), g2);
@@ -149,7 +151,7 @@ bool ConstrainedDelaunay::flipBlocks(Work& work) {
   return true;
 }
 
-/// The closed edges in the order of giving up.
+/// Puts the closed edges into the order in which they are given up.
 void ConstrainedDelaunay::orderEdges() {
   uint32_t starts[kLevels + 1] = {};
   const uint32_t begin = closable_->outside + 2, end = closable_->end;
@@ -191,11 +193,11 @@ inline __attribute__((always_inline)) bool ConstrainedDelaunay::isIllegal(uint32
   const uint32_t a = corners_[nextInTriangle(h)], b = corners_[prevInTriangle(h)];
   const uint32_t c = corners_[h], d = corners_[g];
   if (!inCircle(metric_[a], metric_[b], metric_[c], metric_[d], error_)) return false;
-  // Implied where circles are exact; elsewhere what they say may be all wrong.
+  // Always true if circles are exact; otherwise what they say may be all wrong.
   return isExact_ || (turn(at_[a], at_[d], at_[c]) > 0 && turn(at_[b], at_[c], at_[d]) > 0);
 }
 
-/// Puts the other diagonal into the two triangles at h; it comes after h, and after its twin.
+/// Puts the other diagonal into the two triangles at h: it follows h, and the twin of h.
 void ConstrainedDelaunay::flip(uint32_t h) {
   const uint32_t g = twins_[h];
   const uint32_t h1 = nextInTriangle(h), g1 = nextInTriangle(g);
@@ -219,7 +221,7 @@ bool ConstrainedDelaunay::flipStacked(Work& work) {
   return work.tick(50 * (flips % kTick));
 }
 
-/// A triangle in the place of one taken away: its first half-edge.
+/// Puts a triangle in the place of one taken away; returns its first half-edge.
 uint32_t ConstrainedDelaunay::create(uint32_t a, uint32_t b, uint32_t c) {
   SF_ASSERT(turn(at_[a], at_[b], at_[c]) > 0);
   const uint32_t h = 3 * free_.last();
@@ -228,7 +230,8 @@ uint32_t ConstrainedDelaunay::create(uint32_t a, uint32_t b, uint32_t c) {
   return h;
 }
 
-/// Takes away the triangles on the first edge of the left border, as long as `right` is in their circles.
+/// Takes away the triangles on the first edge of the left border,
+/// as long as `right` is in their circles.
 inline void ConstrainedDelaunay::takeLeft(uint32_t left, uint32_t right) {
   const Point2 a = metric_[left], d = metric_[right];
   Border first = *--left_.top;
@@ -256,7 +259,7 @@ inline void ConstrainedDelaunay::takeRight(uint32_t left, uint32_t right) {
   right_.push(first);
 }
 
-/// Merges what lies to the left of edge h, which is illegal, and to the right of it. Returns how many
+/// Merges the triangles to the left and to the right of edge h, which is illegal. Returns how many
 /// triangles change.
 uint32_t ConstrainedDelaunay::merge(uint32_t h) {
   const uint32_t g = twins_[h], bottom = corners_[nextInTriangle(h)],

@@ -1,21 +1,22 @@
 // Constrained Delaunay triangles from any triangles of a polygon.
 //
-// The list of triangles is taken in blocks. Within a block, edges are flipped until all are legal: where
-// triangles come from flooding, around the vertex that each was made for, as when it is inserted. Edges
-// between blocks, and bridges, are closed at first, then given up one after the other, between neighbours
-// in the list first, between its halves last; each time the triangles to the left and to the right of the
-// edge, constrained Delaunay by themselves, are merged. All that a merge makes crosses the edge, from one end
-// to the other: a circle that rises along the edge finds them in that order, and meets nothing that it
-// would have to take back.
+// The list of triangles is taken in blocks. Within a block edges are flipped until all are legal.
+// If the triangles come from flooding, each was made for a vertex; flips start around that vertex,
+// as if it were inserted. Edges between blocks, and bridges, are closed at first. Then they are
+// given up one after the other: those between neighbours in the list first, those between its two
+// halves last. Each time the triangles to the left and to the right of the edge, constrained
+// Delaunay by themselves, are merged. All edges that a merge makes cross this edge, in a row from
+// one end to the other. A circle that rises along the edge finds them in that order and never has
+// to take one back.
 //
 // Source: Guibas, Stolfi 1985, "Primitives for the manipulation of general subdivisions and the
 // computation of Voronoi diagrams", sec. 9, for the merge; Chew 1989, "Constrained Delaunay
 // triangulations", for merges between fixed edges; Lawson 1977, "Software for C1 surface
 // interpolation", for flips.
-// Differs: parts are separated by an edge that both have, not by a line, so that the circle starts at
-// its end; both sides may be connected elsewhere, around a hole or an isolated point. Flips alone would
-// take O(n) a vertex on smooth curves, since water leaves thin triangles side by side. PAPERS.md has why
-// merges work.
+// Differs: the two parts are separated by a common edge, not by a line, so the circle starts at the
+// end of that edge. Both sides may be connected elsewhere, around a hole or an isolated point.
+// Flips alone would take O(n) time a vertex on smooth curves, since flooding leaves thin triangles
+// side by side. PAPERS.md explains why merges work.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -29,25 +30,27 @@ namespace sf {
 
 class ConstrainedDelaunay {
  public:
-  /// Makes the triangles constrained Delaunay: no node that a triangle sees past none of the loops'
-  /// edges lies inside its circle, by exact incircle for coordinates in the range of the predicates.
-  ///   triangles  [3m] nodes, a triangulation of the loops; m stays
+  /// Makes the triangles constrained Delaunay: no node inside a triangle's circle can be seen from
+  /// the triangle without crossing an edge of the loops. Circle tests are exact for coordinates in
+  /// the range of the predicates.
+  ///   triangles  [3m] nodes, a triangulation of the loops; their number stays
   ///   twins      of these, with any edges closed; all are open afterwards
-  /// Triangles that are Delaunay stay, also where more than three nodes lie on one circle.
-  /// False, and both lists undefined, once `work` is to end. O(n log n) time for all but unnatural
-  /// polygons; memory is charged, and kept for the next call.
+  /// Triangles that are Delaunay stay, even if more than three nodes lie on one circle. False once
+  /// `work` is to end; both lists are then undefined. O(n log n) time for all but unnatural
+  /// polygons. Memory is charged, and kept for the next call.
   bool run(const LinkedPolygon& loops, Work& work, ArrayView<uint32_t> triangles,
            ClosableTwins& twins);
-  /// The same, quicker, for the triangles and twins of a Flood that has run with `paired`.
+  /// The same, but faster, for the triangles and twins of a Flood that has run with `paired`.
   bool runFlooded(const LinkedPolygon& loops, Work& work, Flood& flood);
 
  private:
-  /// An edge of the border of what a merge has taken away: from the vertex of the one below it in the
-  /// list to `vertex`; `outer` is the twin of what will come to lie on it.
+  /// An edge on the border of the triangles that a merge has taken away. It runs from the vertex of
+  /// the entry below it in the list to `vertex`. `outer` will be the twin of the half-edge that is
+  /// made along it.
   struct Border {
     uint32_t vertex, outer;
   };
-  /// What is pushed and popped, in memory that is there: as much as a merge can need.
+  /// A stack in memory reserved beforehand, as much as a merge can need.
   template <class T>
   struct Stack {
     Buffer<T> items;
@@ -89,11 +92,12 @@ class ConstrainedDelaunay {
   std::vector<uint32_t> order_;  // closed edges, by the first of their far sides
   Stack<Border> left_, right_;
   Stack<uint32_t> free_;  // triangles taken away
-  // The half-edges of edges to look at, none twice; or triangles whose edge below the apex is illegal.
+  // Half-edges of edges to look at, none twice;
+  // or triangles whose edge opposite the apex is illegal.
   std::vector<uint32_t> stack_;
   uint32_t waiting_ = 0;
-  // [3m] Whether a half-edge is among them. Bytes would do, but the compiler takes whatever it knows
-  // to be changed by one that is written.
+  // [3m] Whether a half-edge is among them. Not bytes: the compiler takes a write to a byte to
+  // change whatever else it knows.
   std::vector<uint16_t> waits_;
 };
 

@@ -5,8 +5,8 @@
 namespace sf {
 namespace {
 
-// Half-edges and what lies beyond them have numbers up to this: as many again are left for edges to be
-// closed, below 2^32.
+// The largest number of half-edges and their far sides. It leaves as many numbers again below 2^32
+// for edges to be closed.
 constexpr uint64_t kMostHalves = (uint64_t(1) << 31) - 8;
 
 }  // namespace
@@ -27,7 +27,7 @@ bool Flood::run(const LinkedPolygon& loops, const Visibility& seen, Work& work, 
   if (!charge.add(most * perNode + uint64_t(bridges) * 2 * sizeof(Chain)) ||
       !kept.add(most * (paired ? 7 : 3) * sizeof(uint32_t)))
     return false;
-  // They only grow: what is there needs no clearing.
+  // Buffers only grow: what they hold needs no clearing.
   if (nodes_.size() < most) nodes_.resize(most);
   if (corners_.size() < 3 * most) corners_.resize(3 * most);
   out_ = corners_.data();
@@ -121,7 +121,7 @@ Flood::Step Flood::step() {
   return (left ? raiseLeft(next) : raiseRight(next)) ? Step::On : Step::Forbidden;
 }
 
-/// Adds v to the left end of the chain, and the wedge of triangles that v sees of it.
+/// Adds v to the left end of the chain, and makes the wedge of triangles that v sees there.
 bool Flood::raiseLeft(Node* v) {
   if (v->kind == VertexKind::LeftBank)
     v->kind = VertexKind::Unused;
@@ -144,7 +144,7 @@ bool Flood::raiseRight(Node* v) {
   return true;
 }
 
-/// The triangles that v sees of the chain from c on to `end`; v is linked to what they leave of it.
+/// Makes the triangles that v sees along the chain from c to `end`, and links v to the rest of it.
 void Flood::wedgeAhead(Node* v, Node* c, Node* end) {
   while (c != end) {
     Node* const d = c->next;
@@ -200,7 +200,7 @@ bool Flood::bridge(Node* sag) {
   }
   if (sag->kind != VertexKind::Sag) return false;
   Node *const high = chain_.highest, *const afterHigh = high->next, *const afterSag = sag->next;
-  // Sags are kept under nodes of left banks, which therefore stay themselves.
+  // Sags are kept under nodes of left banks, so these nodes stay, and the others are copied.
   Node *const highOnRight = copyOf(*high), *const sagOnLeft = copyOf(*sag);
   if (paired_) high->below = twins_.addClosed(), sag->below = high->below + 1;
   link(high, sagOnLeft), link(sagOnLeft, afterSag);
@@ -227,7 +227,7 @@ void Flood::bridgeIsland(Node* sag) {
   note(FloodAction::Bridge);
 }
 
-/// Leaves this side of a top waiting for the other one, and looks for the bottom of that.
+/// Lets this side of a top wait for the other one, and looks for the bottom of that.
 void Flood::spill(Node* top, bool left) {
   top->jump = left ? chain_.right : chain_.left;
   ++spilled_;

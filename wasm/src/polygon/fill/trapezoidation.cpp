@@ -19,7 +19,7 @@ uint32_t upperNode(const LinkedPolygon& linked, uint32_t edge) {
 }
 
 constexpr size_t kFlipsForIslands = 16;
-// More steps than this from one island to the next: rather go along the line of sight.
+// If the next island is more steps away than this, going along the line of sight is better.
 constexpr uint32_t kLongestWalk = 40;
 
 }  // namespace
@@ -29,7 +29,7 @@ bool findTrapezoids(const LinkedPolygon& linked, const Visibility& seen, Work& w
   Charge charge(work);
   if (!charge.add(8 * uint64_t(linked.at.size()))) return false;
   trapezoids.clear();
-  // The node that saw each edge last, at first the one where it begins.
+  // The node that saw each edge last; at first the node where the edge begins.
   std::vector<uint32_t> last(2 * linked.at.size());
   for (uint32_t e = 0; e < last.size(); ++e) last[e] = lowerNode(e);
   for (const uint32_t v : seen.order) {
@@ -150,7 +150,7 @@ bool TrapezoidTriangulator::insertIslands(const LinkedPolygon& linked, const Vis
   return true;
 }
 
-/// Makes the best of the angles, if `delaunay`, and inserts the islands.
+/// Makes the triangles constrained Delaunay, if `delaunay`, and inserts the islands.
 bool TrapezoidTriangulator::improve(const LinkedPolygon& linked, const Visibility& seen,
                                     bool delaunay, Work& work) {
   const uint32_t nodes = uint32_t(linked.at.size());

@@ -18,11 +18,12 @@
 //   grid would be rows of trapezoids as wide as the polygon and of no height. Over 20 x 20 points
 //   in a blob the mean smallest angle is 3.8 degrees that way, whatever the monotone triangulation.
 //   They are inserted into the finished triangles, in random rounds, and edges around them flipped.
-// - Diagonals of thin trapezoids are made like all others, and the triangles then made constrained
-//   Delaunay (constrained_delaunay.h), which takes as long as the u-trees. That reaches what not
-//   making them would (the chains on both sides then exchange triangles), without monotone polygons
-//   of two chains. Flips alone would do as well for most polygons, but be O(n) a vertex across the
-//   inside of a densely sampled curve, where most trapezoids are thin.
+// - Diagonals of thin trapezoids are made like all others, and the triangles are then made
+//   constrained Delaunay (constrained_delaunay.h), which takes as long as the u-trees. That
+//   does what leaving the diagonals out would do, since the chains on both sides then exchange
+//   triangles; but it needs no monotone polygons of two chains. Flips alone would do for most
+//   polygons, but would take O(n) time a vertex across the inside of a densely sampled curve, where
+//   most trapezoids are thin.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -37,28 +38,28 @@
 
 namespace sf {
 
-/// The part of the polygon between two visibility lines that follow each other along two edges.
+/// The part of the polygon between two consecutive visibility lines that end on its two edges.
 struct Trapezoid {
   uint32_t bottom, top;  // nodes
   uint32_t left, right;  // edges, by their lower nodes as in Visibility
 };
 
-/// All trapezoids, by increasing height of their tops: two for each node that is a top, none for a
-/// bottom, one for each other. False when the work ended. O(m) time.
+/// All trapezoids, by increasing height of their tops: two for each top, none for a bottom, one for
+/// every other node. False when the work ended. O(m) time.
 bool findTrapezoids(const LinkedPolygon& linked, const Visibility& seen, Work& work,
                     std::vector<Trapezoid>& trapezoids);
 
-/// Polygon 2u has the base u - prev[u] and its chain to the right, polygon 2u + 1 the base u -
-/// next[u] and its chain to the left. Polygon i is chain[starts[i]] .. chain[starts[i+1] - 1], from
-/// its lowest vertex to its highest; empty where node u has no such edge upwards, or nothing is
-/// seen from it.
+/// Polygon 2u has the base u - prev[u] and its chain to the right, polygon 2u + 1 the base
+/// u - next[u] and its chain to the left. Polygon i is chain[starts[i]] .. chain[starts[i+1] - 1],
+/// from its lowest vertex to its highest. It is empty if node u has no such edge upwards, or if no
+/// node sees that edge.
 struct UniMonotonePolygons {
   std::vector<uint32_t> starts;  // [2m+1]
   std::vector<uint32_t> chain;
 };
 
 /// Finds the uni-monotone polygons. O(m) time.
-///   islands  whether isolated vertices are vertices of them; left out otherwise
+///   islands  whether isolated vertices take part; they are left out otherwise
 bool findUniMonotonePolygons(const LinkedPolygon& linked, const Visibility& seen, bool islands,
                              Work& work, UniMonotonePolygons& polygons);
 
@@ -66,10 +67,10 @@ bool findUniMonotonePolygons(const LinkedPolygon& linked, const Visibility& seen
 class TrapezoidTriangulator {
  public:
   /// Appends the triangles, as nodes, counter-clockwise and of positive area, to `triangles`.
-  /// Islands are vertices of them. False when the work ended.
+  /// Islands are among their vertices. False when the work ended.
   ///   seen       of all nodes, not of sags alone
-  ///   delaunay   whether triangles are made constrained Delaunay, but for what is connected with
-  ///              very many islands, or left as the u-trees make them
+  ///   delaunay   whether triangles are made constrained Delaunay, or left as the u-trees make
+  ///              them; around very many islands some may not be
   ///   forStrips  whether some edges are flipped so that strips get longer, at a small loss in
   ///              angles
   bool triangulate(const LinkedPolygon& linked, const Visibility& seen, bool delaunay,

@@ -6,8 +6,8 @@
 
 namespace sf {
 
-/// The tree of the vertices 1 .. n-2 of the chain, each no nearer to the base than its parent and
-/// of equally near ones the lower the parent; its root is left in stack_[0].
+/// The tree of the vertices 1 .. n-2 of the chain. No vertex is nearer to the base than its parent;
+/// of equally near ones the lower is the parent. The root is left in stack_[0].
 void UTree::build(ArrayView<const Point2> at, ArrayView<const uint32_t> chain, bool left) {
   const uint32_t last = uint32_t(chain.size()) - 1;
   const Point2 a = at[chain[0]], b = at[chain[last]];

@@ -46,7 +46,7 @@ class UTree {
   struct Part {
     uint32_t bottom, top, root;  // numbers in the chain
   };
-  std::vector<double> distance_;         // of each vertex from the base, about
+  std::vector<double> distance_;         // of each vertex from the base, rounded
   std::vector<uint32_t> above_, below_;  // subtrees: numbers in the chain, 0 for none
   std::vector<uint32_t> stack_;
   std::vector<Part> parts_;

@@ -1,4 +1,4 @@
-// The points of a polygon as the predicates for circles and angles take them.
+// The points of a polygon in the range of the predicates for circles and angles.
 #pragma once
 #include <vector>
 
@@ -8,10 +8,10 @@
 
 namespace sf {
 
-/// The points of the nodes themselves where they are in the range of base/predicates.h; else `scaled`, with
-/// the largest magnitude in [1/2, 1). O(1), or O(n) where they have to be scaled.
-///   exponent  out: the points are those of the nodes times 2^-exponent; 0 for the nodes' own
-///   isExact   out: whether nothing was lost; if not, what the predicates say may be wrong
+/// The nodes' own points if they are in the range of base/predicates.h; else scaled copies in
+/// `scaled`, with the largest magnitude in [1/2, 1). O(1), or O(n) if they have to be scaled.
+///   exponent  out: the result is the nodes' points times 2^-exponent; 0 for their own points
+///   isExact   out: whether scaling lost nothing; if it did, the predicates may be wrong
 ArrayView<const Point2> metricPoints(const LinkedPolygon& loops, std::vector<Point2>& scaled,
                                      int& exponent, bool& isExact);
 

@@ -6,7 +6,7 @@
 namespace sf {
 namespace {
 
-/// Shorter normals than this, for rings in a unit cube, are given up.
+/// Normals shorter than this, for rings in a unit cube, are not used.
 constexpr double kLeastNormal = 1e-9;
 
 /// Sums over the edges of a ring, relative to its first vertex and divided by its extent.
@@ -48,7 +48,7 @@ uint32_t largest(const double (&values)[3]) {
   return best;
 }
 
-/// The column of the covariance's adjugate with the largest diagonal entry: where the ring is planar,
+/// The column of the covariance's adjugate with the largest diagonal entry. If the ring is planar,
 /// the adjugate is a multiple of the normal times itself. Zero for collinear points.
 void leastVariance(const RingSums& sums, double (&normal)[3]) {
   const auto c = [&](uint32_t k, uint32_t l) {

@@ -2,8 +2,8 @@
 //
 // Source: Newell's sum of cross products for the normal (Sutherland, Sproull, Schumacker 1974, "A
 // characterization of ten hidden-surface algorithms").
-// Differs: the coordinates that validity is judged by are two of the three in space, the one along
-// which the plane is steepest left out, and not lengths along axes in the plane: so nothing is rounded,
+// Differs: validity is judged by two of the three space coordinates, not by lengths along axes in
+// the plane. The coordinate along which the normal is largest is left out. So nothing is rounded,
 // vertices on edges stay on them, and rings that touch still do.
 #pragma once
 #include <cstdint>
@@ -27,16 +27,16 @@ struct Plane {
   Vec3 lift(double x, double y) const;
 };
 
-/// The plane through the first vertex that fits a ring best: across Newell's normal; where a ring has
-/// hardly any, since it winds both ways, across the direction of least variance. Any plane for a ring
-/// of collinear points, or with coordinates that are not finite. O(n) time.
+/// The plane through the first vertex that fits a ring best: perpendicular to Newell's normal, or,
+/// if that nearly vanishes because the ring winds both ways, to the direction of least variance.
+/// Any plane for a ring of collinear points, or with coordinates that are not finite. O(n) time.
 ///   ring  [3n] xyz
 Plane planeOf(ArrayView<const double> ring);
 
 /// Coordinates in the plane, counter-clockwise as the plane's ring.
 ///   from       [3n] xyz
-///   to         [2n] out: those along u and v as they are; or, if `isometric`, lengths along axes in the
-///              plane, rounded
+///   to         [2n] out: the coordinates along u and v unchanged; or, if `isometric`, lengths
+///              along axes in the plane, rounded
 void flatten(const Plane& plane, bool isometric, ArrayView<const double> from,
              std::vector<double>& to);
 

@@ -148,8 +148,8 @@ class Sweep {
     return work_.tick(kUnitsPerCrossing);
   }
 
-  /// The order of the heap, whose greatest element comes out first; total, so that which of two
-  /// pairs stands for a common point does not depend on how heaps are built.
+  /// The order of the heap, whose greatest element comes out first. It is total, so that the choice
+  /// among pairs that cross at one point does not depend on how heaps are built.
   struct Later {
     const Sweep& sweep;
     bool operator()(const Pending& a, const Pending& b) const {

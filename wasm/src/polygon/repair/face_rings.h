@@ -1,6 +1,6 @@
 // The rings around the chosen faces of edges that do not cross.
-// Source: Ronfard, Rossignac 1994, sec. 1: at a vertex of several edges the next is the first
-// clockwise, so that rings go around the inside of one piece of the polygon each.
+// Source: Ronfard, Rossignac 1994, sec. 1: at a vertex of several edges the next edge is the first
+// one clockwise, so that each ring goes around the inside of one piece of the polygon.
 // Differs: rings are cut wherever they come back to a vertex, so that all are simple.
 #pragma once
 #include "polygon/input/options.h"

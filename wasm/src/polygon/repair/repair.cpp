@@ -120,8 +120,8 @@ bool Repairer::start() {
   return renumber();
 }
 
-/// Rounds until nothing crosses. Where edges are all but parallel, every bend may make more
-/// crossings than it ends, so neither rounds nor edges may go on growing.
+/// Goes on until nothing crosses. If edges are nearly parallel, every bend may make more crossings
+/// than it ends, so neither rounds nor edges may go on growing.
 bool Repairer::resolve() {
   size_t allowed = size_t(-1);
   for (uint32_t round = 0;; ++round) {
@@ -132,7 +132,7 @@ bool Repairer::resolve() {
     if (round >= limits_.rounds || pieces > allowed) break;
     if (!splitAtCuts()) return false;
   }
-  // First to the cells of vertices alone: of many edges that are all but one, few are left.
+  // First to the cells of vertices alone: that leaves few of many edges that are nearly one.
   found_.crossings.clear();
   if (!snap() || !findCrossings(at_, edges_, size_t(-1), work_, charge_, found_)) return false;
   if (found_.cuts.empty()) return true;

@@ -62,7 +62,7 @@ class Rounding {
           if (x0 == x1) break;
         }
     }
-    // Of each place the best cause comes first: a point at the centre, a crossing, any point.
+    // At each place the best cause comes first: a point at the centre, a crossing, any point.
     const auto rank = [&](const HotCell& c) {
       return c.cause >= m ? 1 : at_[c.cause] == c.centre ? 0 : 2;
     };

@@ -219,8 +219,8 @@ bool ConstrainedMesh::isEar(const std::vector<uint32_t>& ring, size_t i) const {
 
 /// Appends triangles that fill a ring, counter-clockwise, which may run along edges both ways.
 void ConstrainedMesh::fill(std::vector<uint32_t>& ring, std::vector<uint32_t>& corners) const {
-  // Whatever triangles fill it, they form a tree, of which a leaf is an ear: so there always is
-  // one.
+  // Whatever triangles fill it form a tree, and a leaf of the tree is an ear:
+  // so there always is one.
   size_t i = 1;
   for (size_t tried = 0; ring.size() > 2 && tried <= ring.size();) {
     const size_t n = ring.size();

@@ -45,15 +45,15 @@ bool PolygonSession::withinBox(Point2 p) const {
   return std::fabs(p.x) < side_ && std::fabs(p.y) < side_;
 }
 
-/// Whether an edit of vertex v may begin: there is such a vertex, and the rest as below. kNone is a number
-/// like any other here: taken for "no vertex" it would let callers edit corners of the box.
+/// Whether an edit of vertex v may begin: v is a vertex, and `admit` allows it. Here kNone is a
+/// number like any other: if it stood for "no vertex", callers could edit corners of the box.
 Outcome PolygonSession::admitVertex(uint32_t v, Point2 p, Work& work) const {
   if (!isVertex(v)) return Outcome{Status::BadOption};
   return admit(v + kShift, p, work);
 }
 
-/// Whether an edit may begin: p is a position, and the memory in use is within the limit. The
-/// culprit otherwise is v, a number of the mesh or kNone.
+/// Whether an edit may begin: p is a position, and the memory in use is within the limit. If not,
+/// the culprit is v, a number of the mesh or kNone.
 Outcome PolygonSession::admit(uint32_t v, Point2 p, Work& work) const {
   if (!isAccepted(p)) return about(Status::NotFinite, v, kNone);
   Charge charge(work);
@@ -76,8 +76,8 @@ void PolygonSession::giveUp(uint32_t v) {
   unused_.push_back(v);
 }
 
-/// Makes v a vertex at p, between a and b unless these are kNone. If that fails nothing of it is
-/// left.
+/// Makes v a vertex at p, between a and b unless these are kNone. If that fails,
+/// everything is as before.
 bool PolygonSession::place(uint32_t v, Point2 p, uint32_t a, uint32_t b, Obstacle& obstacle) {
   mesh_.setPosition(v, p);
   if (a != kNone) near_ = a;

@@ -1,21 +1,22 @@
-// A polygon whose vertices are inserted, deleted and moved, with its triangles and strips kept up
-// to date around the edit alone.
+// A polygon whose vertices are inserted, deleted and moved. Its triangles and strips are kept up to
+// date by changes around the edit alone.
 //
 // The session triangulates a box around the polygon, outside and holes included, with the rings'
 // edges fixed in it. That is the certificate (polygon/fill/certificate.h: the polygon and its
 // complement), and it is local: all triangles are of positive area and every ring edge is one of
 // theirs, so edges meet in common vertices alone. An edit changes triangles around the old and the
-// new place of one vertex and tests those. What lies inside follows from the triangles next to the
-// changed ones: a ring edge parts inside and outside, no other edge does. Where that is
-// contradictory, as when a hole would be left outside, the whole is looked at again, and the edit
-// is refused or, if valid after all, accepted.
+// new place of one vertex and tests those. Which of them lie inside follows from the triangles next
+// to them: a ring edge separates inside and outside, no other edge does. If that is contradictory,
+// as when a hole would be left outside, everything is checked again, and the edit is refused or, if
+// valid after all, accepted.
 //
 // Source: Kumar, sec. 5.
 // Differs:
-// - Vertices can be moved as well, and the outside is triangulated too, which makes edits safe: an
+// - Vertices can be moved as well, and the outside is triangulated too. That makes edits safe: an
 //   edge that crosses another meets it on the way, wherever that is.
-// - Strips are cut where triangles change, and what is left is joined again at its ends ("strips
-//   tend to become fragmented after a while" otherwise; no complete re-triangulation is needed).
+// - Strips are cut where triangles change, and the remaining pieces are joined again at their ends
+//   (otherwise "strips tend to become fragmented after a while"). No complete re-triangulation is
+//   needed.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -39,36 +40,36 @@ class PolygonSession {
   Outcome start(const PolygonView& polygon, Work& work);
 
   // Edits. On errors the polygon is as before. In their outcomes `vertex` is the edited vertex (or
-  // the one after which a vertex was to be inserted) and `otherVertex` the culprit: a vertex that
-  // the place or a new edge meets, or the first vertex of an edge that they meet; both in the
+  // the one after which a vertex was to be inserted). `otherVertex` is the culprit: a vertex that
+  // the place or a new edge meets, or the first vertex of an edge that they meet. Both are in the
   // session's numbers, with their rings. Statuses are those of start, and BadOption for a vertex
-  // that there is not. Cost: the triangles that the edit meets, for all but edits that turn a ring
-  // inside out or leave the box around the polygon, which cost as much as start.
+  // that does not exist. Cost: the triangles that the edit meets. Edits that turn a ring inside out
+  // or leave the box around the polygon cost as much as start.
 
-  /// Inserts a vertex at p between ring vertex `before` and the next one; its number is returned in
-  /// v.
+  /// Inserts a vertex at p between ring vertex `before` and the next one; v becomes its number.
   Outcome insertVertex(uint32_t before, Point2 p, Work& work, uint32_t& v);
   /// Inserts an isolated vertex strictly inside.
   Outcome insertIsland(Point2 p, Work& work, uint32_t& v);
-  /// Deletes a vertex of a ring, whose neighbours are then joined, or an island. A ring keeps 3
+  /// Deletes an island, or a vertex of a ring, whose neighbours are then joined. A ring keeps 3
   /// vertices. The number may be given to a vertex inserted later.
   Outcome deleteVertex(uint32_t v, Work& work);
   Outcome moveVertex(uint32_t v, Point2 p, Work& work);
 
-  /// The vertices' positions, xy by number; those of numbers out of use mean nothing.
+  /// The vertices' positions, xy by number; the positions of unused numbers mean nothing.
   ArrayView<const double> positions() const;
-  /// Whether number v is that of a vertex.
+  /// Whether v is the number of a vertex.
   bool isVertex(uint32_t v) const;
   /// The next vertex of v's ring, with the polygon to the left; kNone for islands.
   uint32_t nextInRing(uint32_t v) const;
 
-  /// [3m] the triangles inside, counter-clockwise, in an order that edits keep but for the
-  /// triangles changed.
+  /// [3m] the triangles inside, counter-clockwise. Edits keep their order, except for the triangles
+  /// that they change.
   ArrayView<const uint32_t> triangles() const { return triangles_; }
   /// Which triangles the last edit changed or added, by increasing number; those from m on are
   /// gone.
   ArrayView<const uint32_t> changedTriangles() const { return changedSlots_; }
-  /// Writes the strips as writeStrips does, in vertices' numbers. O(m) time, all but free of tests.
+  /// Writes the strips as writeStrips does, in numbers of vertices. O(m) time,
+  /// with hardly any tests.
   bool strips(Work& work, std::vector<uint32_t>& vertices, std::vector<uint32_t>& starts) const;
 
   /// Whether everything said above holds, tested from scratch in O(m) time.
@@ -110,9 +111,9 @@ class PolygonSession {
   ConstrainedMesh mesh_;
   uint32_t near_ = 0;           // a vertex of the triangles near the last edit
   double side_ = 0;             // half the box's
-  std::vector<uint32_t> ring_;  // of each vertex; kIsland, or kNone for numbers out of use
+  std::vector<uint32_t> ring_;  // of each vertex; kIsland, or kNone for unused numbers
   std::vector<uint32_t> ringSizes_;
-  std::vector<uint32_t> unused_;      // numbers out of use
+  std::vector<uint32_t> unused_;      // unused numbers of vertices
   std::vector<uint8_t> inside_;       // of each triangle
   std::vector<uint32_t> slots_;       // of each triangle: its number in triangles_, or kNone
   std::vector<uint32_t> triangleIn_;  // the reverse

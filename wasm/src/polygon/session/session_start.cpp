@@ -98,9 +98,9 @@ Outcome PolygonSession::start(const PolygonView& polygon, Work& work) {
   return outcome;
 }
 
-/// Fills the box with triangles of the polygon and of what is around it, each by flooding, and makes
-/// them Delaunay. False, with nothing said of the polygon, if it is not valid, if rings touch, or if
-/// too many flips would be needed.
+/// Fills the box with triangles of the polygon and of what is around it, each by flooding, and
+/// makes them Delaunay. False if the polygon is not valid, if rings touch, or if too many flips
+/// would be needed; what is wrong is not found out here.
 bool PolygonSession::flood(ArrayView<const uint32_t> ringNext, Work& work) {
   // Rings one after the other again, whatever numbers edits have given to their vertices.
   std::vector<uint32_t> numbers, starts = {0}, corners;
@@ -143,7 +143,7 @@ bool PolygonSession::flood(ArrayView<const uint32_t> ringNext, Work& work) {
   return mesh_.adopt(corners, ringNext, work);
 }
 
-/// Triangulates anew what the rings' links and the islands say.
+/// Triangulates the polygon of the rings' links and the islands anew.
 Outcome PolygonSession::build(Work& work) {
   std::vector<uint32_t> vertices, edges = mesh_.next;
   double largest = 0;

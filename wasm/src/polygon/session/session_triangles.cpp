@@ -15,8 +15,8 @@ constexpr int kLongestStrip = 200;
 
 }  // namespace
 
-/// Tells for each changed triangle whether it lies inside, from those around. False if there is a
-/// contradiction, near vertex `culprit`.
+/// Finds for each changed triangle whether it lies inside, from the triangles around it. False if
+/// there is a contradiction, near vertex `culprit`.
 bool PolygonSession::settleInside(uint32_t& culprit) {
   const TriangleMesh& mesh = mesh_.mesh;
   inside_.resize(mesh.triangleCount(), 0);
@@ -125,13 +125,13 @@ void PolygonSession::orientRings() {
   }
 }
 
-/// Ends an edit: flips, finds what is inside, and hands the changes on; or says why it is refused.
+/// Ends an edit: flips, finds what is inside, and hands the changes on; or returns why it is
+/// refused.
 Outcome PolygonSession::finish(uint32_t edited) {
   mesh_.legalizeChanged(kFlips);
   uint32_t culprit;
   if (!settleInside(culprit)) {
-    // Labels are looked for in all triangles; those that the edit left with none are not to be
-    // kept.
+    // All labels are found anew; settleInside may have left triangles without one.
     Outcome outcome = findInsideAnew();
     if (!outcome.ok()) {
       const Status status = outcome.status;

@@ -7,8 +7,8 @@
 namespace sf {
 namespace {
 
-// How much thinner triangles may get to save indices, and how much so while there are more than
-// kMany indices a triangle. Measured: 2 costs half a degree of 18 of the mean smallest angle on random
+// How much thinner triangles may get to save indices, and how much while there are more than kMany
+// indices a triangle. Measured: 2 costs half a degree of 18 of the mean smallest angle on random
 // polygons, 4 costs 1.4.
 constexpr double kThinner = 2, kMuchThinner = 4;
 constexpr double kMany = 1.48;
@@ -32,7 +32,7 @@ bool equal(const StripCosts& a, const StripCosts& b) {
 
 }  // namespace
 
-/// Whether edge h may be flipped as far as the triangles' shapes go.
+/// Whether the shapes of the triangles allow a flip of edge h.
 bool StripFlips::isFair(uint32_t h) const {
   const TriangleMesh& m = *mesh_;
   const uint32_t a = m.from(h), b = m.to(h), c = m.apex(h), d = m.apex(m.twins[h]);
@@ -43,8 +43,8 @@ bool StripFlips::isFair(uint32_t h) const {
   return m.orient(a, d, c) > 0 && m.orient(b, c, d) > 0;
 }
 
-/// Finds what changes above t if its costs become `costs`, into above_, and returns by how much
-/// the whole then costs more, without t itself; a lot if that is not known.
+/// Puts into above_ what changes above t if its costs become `costs`. Returns how much more the
+/// whole then costs, without t itself; a large number if that is not known.
 int StripFlips::changeAbove(uint32_t t, StripCosts costs) {
   constexpr int kUnknown = 1 << 20;
   const std::vector<uint32_t>& twins = mesh_->twins;
@@ -68,8 +68,8 @@ int StripFlips::changeAbove(uint32_t t, StripCosts costs) {
   return change;
 }
 
-/// What comes of flipping edge h, from a triangle to the one above it; false if indices are not
-/// saved.
+/// Finds the result of flipping edge h, from a triangle to the one above it;
+/// false if that saves no indices.
 bool StripFlips::foresee(uint32_t h, Flip& flip) {
   // By TriangleMesh::flip triangle t of h gets the sides next(g) and prev(h), and triangle u of its
   // twin g the sides next(h) and prev(g).

@@ -1,10 +1,10 @@
 // Flips of edges after which the triangles need fewer strips and swaps.
 //
 // Source: Kumar, sec. 4.1: triangles are made so that strips are long.
-// Differs: the paper's come from the order in which one uni-monotone polygon is cut up; a comb's
-// or a star's tooth is a strip's end whatever that order is. Which of two triangles' diagonals is
-// better for strips shows only over all polygons, and there it is exact: the least index count
-// along a spanning forest (strip_forest.h) before and after a flip, of which few terms change.
+// Differs: the paper's strips depend on the order in which one uni-monotone polygon is cut up. But
+// a tooth of a comb or a star ends a strip in any order. Which diagonal of two triangles is better
+// for strips shows only over all polygons. There it is known exactly: the least index counts along
+// a spanning forest (strip_forest.h) before and after a flip differ in few terms.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -17,15 +17,15 @@ namespace sf {
 
 class StripFlips {
  public:
-  /// Flips edges of the forest while that saves indices and no triangle gets much thinner than
-  /// both were before. False when the work ended. O(m) time, if a flip's effect ends near it, as
-  /// all but few do; effects that reach far are not looked at.
+  /// Flips edges of the forest while that saves indices and no triangle gets much thinner than both
+  /// were before. False when the work ended. O(m) time if the effects of flips end nearby, as
+  /// nearly all do; effects that reach far are not followed.
   bool run(TriangleMesh& mesh, Work& work);
-  /// What strips along the forest cost then, in the unit of StripCosts.
+  /// The cost of the strips along the forest afterwards, in the unit of StripCosts.
   int64_t cost() const { return forest_.total(); }
 
  private:
-  /// An edge of the forest and what flipping it comes to.
+  /// An edge of the forest, and the result of flipping it.
   struct Flip {
     uint32_t edge;         // half-edge of the lower triangle
     uint32_t upper;        // number of the triangle that is the upper one afterwards
@@ -46,8 +46,8 @@ class StripFlips {
     uint32_t triangle;
     StripCosts costs;
   };
-  std::vector<Change> above_;      // what the flip looked at changes further up
-  std::vector<uint32_t> waiting_;  // triangles whose edge upwards is to be looked at
+  std::vector<Change> above_;      // changes further up by the flip that is looked at
+  std::vector<uint32_t> waiting_;  // triangles whose edge upwards has to be looked at
 };
 
 }  // namespace sf

@@ -23,8 +23,8 @@ int tailOfTop(const StripCosts& c, int starts, int& state) {
 
 }  // namespace
 
-/// Notes triangle t, and which to go to from there: last, and so first to be taken, the one
-/// straight on, where turns alternate.
+/// Notes triangle t, and where to go from there. The triangle straight on, where turns alternate,
+/// is noted last and so taken first.
 void StripForest::enter(ArrayView<const uint32_t> twins, uint32_t t) {
   seen_[t] = true;
   order.push_back(t);
@@ -61,7 +61,7 @@ bool StripForest::grow(ArrayView<const uint32_t> twins, Work& work) {
   order.reserve(count);
   up.assign(count, kNone);
   seen_.assign(count, false);
-  // From ears where there are any: a path that begins in the middle leaves two ends there.
+  // Starts from ears if there are any: a path that begins in the middle leaves two ends there.
   for (uint32_t t = 0; t < count; ++t) {
     const int neighbours =
         (twins[3 * t] != kNone) + (twins[3 * t + 1] != kNone) + (twins[3 * t + 2] != kNone);

@@ -1,9 +1,9 @@
 // A spanning forest of the triangles' dual graph, and the index count of the best strips along it.
 //
-// Strips are paths in the forest. What hangs below a triangle costs as little as it can in each of
-// the six relations that the triangle can have to the strip of the triangle above; these costs
-// follow from those of the triangles below. They are kept relative to the first of them, so that a
-// change far below leaves them as they are, and few have to be found anew when an edge is flipped.
+// Strips are paths in the forest. A triangle can have six relations to the strip of the triangle
+// above it. For each of them the least cost of everything below the triangle is kept; it follows
+// from the costs of the triangles below. Costs are kept relative to that of the first relation. So
+// a change far below leaves them as they are, and few have to be found anew when an edge flips.
 //
 // Source: Arkin, Held, Mitchell, Skiena 1996, "Hamiltonian triangulations for fast rendering", for
 // strips as paths in the dual graph. The dynamic programme is not from a paper.
@@ -17,25 +17,25 @@
 
 namespace sf {
 
-/// How a triangle stands to the strip of the triangle above it: not in it, its end, or one of the
-/// four numbers kStripTurns + 2 turn + starts: the strip goes on below with that turn in the
-/// triangle (seen from above; 0 if it leaves by the half-edge after the one it came by), and has
-/// its start, if `starts` is 1, or else its end down there.
+/// The relation of a triangle to the strip of the triangle above it: not in it, its end, or one of
+/// the four numbers kStripTurns + 2 turn + starts. In these the strip goes on below, with that turn
+/// in the triangle (seen from above; 0 if it leaves by the half-edge after the one it came by). Its
+/// start lies down there if `starts` is 1, else its end.
 constexpr int kStripApart = 0, kStripEnds = 1, kStripTurns = 2;
 
 /// The turn of a path in a triangle that it enters by half-edge `in` and leaves by `out`: 0 if out
 /// follows in, 1 otherwise. Travelled the other way, the turn is the other one.
 inline uint32_t turnOf(uint32_t in, uint32_t out) { return out == nextInTriangle(in) ? 0 : 1; }
 
-/// In sixteenths of an index beyond one a triangle, and a strip more for one: of equal index counts
-/// the one with fewer strips wins.
+/// In sixteenths of an index; the one index that every triangle takes is not counted. Each strip
+/// costs one sixteenth more, so that of equal index counts the one with fewer strips wins.
 struct StripCosts {
   int16_t own = 0;           // of the triangle apart, without the sum of those below it apart
-  int16_t ends = 0;          // the others less that of the triangle apart
+  int16_t ends = 0;          // this and all below: less the cost of the triangle apart
   int16_t turns[2][2] = {};  // [turn][starts]
 };
 
-/// The half-edges by which the strip whose uppermost triangle it is leaves a triangle downwards.
+/// How a strip leaves its uppermost triangle: by which half-edges it goes down.
 struct StripTop {
   int cost = 0;           // like StripCosts::own
   int links = 0;          // how many of the half-edges are crossed
@@ -47,8 +47,9 @@ class StripForest {
  public:
   static constexpr int kIndex = 16;  // an index, in the unit of StripCosts
 
-  /// The triangles below one, by the half-edges after the one towards the triangle above, that one
-  /// last (nothing is below it but at roots); null where there is none.
+  /// The costs of the triangles below a triangle, by half-edge: first the two after the half-edge
+  /// towards the triangle above, last that one itself (nothing is below it except at roots). Null
+  /// where there is no triangle.
   struct Below {
     const StripCosts* costs[3] = {nullptr, nullptr, nullptr};
   };
@@ -76,8 +77,8 @@ class StripForest {
 
   static StripCosts costsOf(const Below& below);
   static StripTop bestTop(const Below& below);
-  /// Costs below a triangle of a strip that comes through it with that turn to the triangle of
-  /// `below`, and ends down there; `starts` if that is where the strip starts. `state` is that of
+  /// The cost below a triangle of a strip that comes through it with that turn to the triangle of
+  /// `below`. The strip ends down there, or starts there if `starts`. `state` becomes the state of
   /// the triangle below.
   static int tail(const StripCosts& below, int turn, int starts, int& state);
 

@@ -5,13 +5,13 @@
 // left; to turn the same way twice it repeats an index (a swap), which costs less than a new strip.
 //
 // Source: Kumar, sec. 4.1: strips and no fans, with few indices.
-// Differs: the paper writes strips while it triangulates each uni-monotone polygon, so that none is
-// longer than its polygon, a few triangles where many vertices are reflex. Here strips are found
-// afterwards over all triangles. Triangles are the nodes of the dual graph, strips are paths in it.
-// Over a spanning forest the paths of least index count are found exactly, by dynamic programming
-// from the leaves; the dual graph of a polygon without interior points and holes is a tree, so
-// there they are the best there are. Elsewhere ends of paths are then joined across the other
-// edges.
+// Differs: the paper writes strips while it triangulates each uni-monotone polygon. So no strip is
+// longer than its polygon, a few triangles if many vertices are reflex. Here strips are found
+// afterwards, over all triangles. Triangles are the nodes of the dual graph, strips are paths in
+// it. Over a spanning forest the paths of least index count are found exactly, by dynamic
+// programming from the leaves. The dual graph of a polygon without interior points and holes is a
+// tree, so there they are the best there are. Elsewhere ends of paths are then joined across the
+// other edges.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -42,12 +42,12 @@ class StripLinks {
   uint32_t only(uint32_t t) const {
     return bits[t] == 0 ? kNone : 3 * t + (bits[t] == 1 ? 0 : bits[t] == 2 ? 1 : 2);
   }
-  /// The half-edge by which a strip that entered its triangle by h leaves it, kNone at its end.
+  /// The half-edge by which a strip leaves the triangle that it entered by h; kNone at its end.
   uint32_t exit(uint32_t h) const {
     if (linked(nextInTriangle(h))) return nextInTriangle(h);
     return linked(prevInTriangle(h)) ? prevInTriangle(h) : kNone;
   }
-  /// How many swaps two strips would need more if they were joined across h, between their ends.
+  /// How many more swaps two strips need if they are joined across h, between their ends.
   uint32_t swapsToJoin(ArrayView<const uint32_t> twins, uint32_t h) const;
 };
 
@@ -57,7 +57,7 @@ class StripLinks {
 /// O(m) time, 36 bytes of memory a triangle.
 bool linkStrips(ArrayView<const uint32_t> twins, Work& work, StripLinks& links);
 
-/// Writes the strips of some triangles, among which every strip is whole or not at all.
+/// Writes the strips of some triangles. Each strip must lie among them wholly or not at all.
 ///   corners   [3m] triangles, counter-clockwise
 ///   among     triangles
 ///   vertices  out: the indices of all strips

@@ -5,7 +5,7 @@
 
 namespace sf {
 
-/// Loops and visibility of the complement, as a sweep of its own would find them: the polygon's links
+/// Finds loops and visibility of the complement, as a sweep of its own would: the polygon's links
 /// the other way round, and the corners of a frame (frameAround) as four more nodes at the end.
 ///   polygon, seen  as PlaneSweep::run leaves them for sags only; no rings may touch
 ///                  (PlaneSweep::isPlain)

@@ -5,10 +5,10 @@
 namespace sf {
 namespace {
 
-// So many steps along the list cost about as much as a search in the tree.
+// This many steps along the list cost about as much as a search in the tree.
 constexpr int kSteps = 12;
 
-// One of so many edges is in the tree.
+// One edge of this many is in the tree.
 constexpr uint32_t kPerIndexed = 8;
 
 uint32_t priorityOf(uint32_t e) {
@@ -46,7 +46,7 @@ bool EdgeOrder::find(Point2 p, uint32_t hint, uint32_t& left, uint32_t& right) c
   return walkRight(left == kNone ? leftmost_ : left, p, left, right);
 }
 
-/// find by steps along the list from e, which p is not left of unless e is leftmost.
+/// find, by steps along the list from e. p must not be left of e, unless e is leftmost.
 bool EdgeOrder::walkRight(uint32_t e, Point2 p, uint32_t& left, uint32_t& right) const {
   left = e == kNone ? kNone : edges_[e].left;
   right = kNone;
@@ -62,8 +62,8 @@ bool EdgeOrder::walkRight(uint32_t e, Point2 p, uint32_t& left, uint32_t& right)
   return false;
 }
 
-/// find by steps along the list from e; false if that is too far off. If an edge runs
-/// through p it is both `left` and `right`.
+/// find, by steps along the list from e; false if that is too far off. If an edge runs through p it
+/// is both `left` and `right`.
 bool EdgeOrder::findFrom(uint32_t e, Point2 p, uint32_t& left, uint32_t& right) const {
   if (e == kNone || edges_[e].lower == kNone) return false;
   double s = side(e, p);
@@ -100,7 +100,7 @@ void EdgeOrder::insertAfter(uint32_t left, uint32_t e) {
   if (hasTree_ && isIndexed(e)) index(e);
 }
 
-/// Puts an edge into the tree, next to the nearest edge to its left that is there.
+/// Puts an edge into the tree, next to the nearest tree edge on its left.
 void EdgeOrder::index(uint32_t e) {
   uint32_t before = edges_[e].left;
   while (before != kNone && !isIndexed(before)) before = edges_[before].left;

@@ -1,6 +1,6 @@
-// The edges that cross the sweep line, from left to right: a list for neighbours, a treap over
-// some of them for finding the place of a new vertex; before that, a few steps along the list are
-// tried, from an edge that the caller thinks near or one that was last seen at about the same x.
+// The edges that cross the sweep line, from left to right. A list links neighbours; a treap over
+// some of them finds the place of a new vertex. Before that, a few steps along the list are tried,
+// from an edge that the caller thinks near, or from the edge last seen at about the same x.
 // Source: Seidel, Aragon 1996, "Randomized search trees". Differs: priorities are hashes of the
 // records' numbers, so that every run is the same; one edge of eight is in the tree, the others are
 // reached along the list, and for few edges there is no tree.
@@ -26,7 +26,7 @@ struct CrossedEdge {
 
 class EdgeOrder {
  public:
-  /// Forgets all edges, and keeps the memory for `capacity` of them at once, over points of x from
+  /// Forgets all edges, and makes room for `capacity` of them at once, over points with x from
   /// `least` to `greatest`.
   void reset(size_t capacity, double least, double greatest);
   static uint64_t bytes(uint64_t capacity) { return capacity * (sizeof(CrossedEdge) + 8); }
@@ -37,25 +37,25 @@ class EdgeOrder {
   /// How many edges there are now.
   size_t size() const { return size_; }
   uint32_t leftmost() const { return leftmost_; }
-  /// The edges that p lies between, kNone at the ends; true, with `left` an edge through p, if there
-  /// is one. O(log n) expected, O(1) if `hint` is an edge close to p; it may be kNone.
+  /// Finds the edges between which p lies, kNone at the ends. If an edge passes through p, returns
+  /// true, with this edge in `left`. O(log n) expected, O(1) if `hint` is an edge close to p; it
+  /// may be kNone.
   bool find(Point2 p, uint32_t hint, uint32_t& left, uint32_t& right) const;
-  /// Whether for that many edges a hint is worth its search.
+  /// Whether a hint is worth its search with that many edges.
   static bool takesHints(size_t capacity) { return capacity > kFew; }
   /// Remembers that edge e was seen near x.
   void remember(uint32_t e, double x) {
     if (hasTree_) near_[columnOf(x)] = e;
   }
 
-  /// Puts record e, not in use, directly right of `left`, or leftmost if that is kNone. The caller
-  /// chooses: records next to each other in the order are best next to each other in memory. O(log n)
-  /// expected.
+  /// Puts the unused record e directly right of `left`, or leftmost if that is kNone. The caller
+  /// chooses the record: neighbours in the order should be neighbours in memory. O(log n) expected.
   void insertAfter(uint32_t left, uint32_t e);
   /// Takes a record out. O(log n) expected.
   void remove(uint32_t e);
 
  private:
-  // Up to so many edges, the list is searched from its left end.
+  // With at most this many edges the list is searched from its left end.
   static constexpr size_t kFew = 32;
 
   void index(uint32_t e);

@@ -9,13 +9,13 @@
 namespace sf {
 namespace {
 
-/// What coordinates are like.
+/// Range and shape of a list of points.
 struct Extent {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Double2 least = {kInfinity, kInfinity}, greatest = {-kInfinity, -kInfinity};
-  Double2 smallest = {kInfinity, kInfinity};  // magnitude, but for zeros
+  Double2 smallest = {kInfinity, kInfinity};  // least magnitude that is not 0
   Int2 accepted = {-1, -1};
-  // Of the points as one line, the number of local minima and maxima along x and along y.
+  // The number of local minima and maxima along x and along y, of the points as one chain.
   Int2 extrema = {0, 0}, rises = {0, 0};
   Double2 last = {kInfinity, kInfinity};
 
@@ -29,7 +29,7 @@ struct Extent {
     smallest = lesser(size > 0 ? size : infinite, smallest);
   }
   bool isAccepted() const { return (accepted[0] & accepted[1]) != 0; }
-  /// The power of two by which to scale, so that tiny polygons do not live on underflows.
+  /// The power of two by which to scale, so that tiny polygons stay clear of underflows.
   double scale() const {
     const Double2 sizes = greater(magnitudes(least), magnitudes(greatest));
     const double largest = sizes[0] > sizes[1] ? sizes[0] : sizes[1];
@@ -70,8 +70,8 @@ Outcome firstNotFinite(const PolygonView& polygon) {
     if (isBad(polygon.points, bad.loop - rings)) return bad;
 }
 
-/// Copies positions, and points or the frame, to `linked`, scaled, and turned if that may and should
-/// be; false if one is not finite.
+/// Copies positions, and isolated points or the frame, to `linked`. Scales them, and turns them if
+/// `mayTurn` and the turn pays. False if one is not finite.
 bool copyScaled(const PolygonView& polygon, bool mayTurn, bool complement, LinkedPolygon& linked) {
   Buffer<Point2>& at = linked.at;
   const size_t n = polygon.positions.size() / 2;
@@ -84,7 +84,7 @@ bool copyScaled(const PolygonView& polygon, bool mayTurn, bool complement, Linke
     }
   };
   copy(polygon.positions, at.data());
-  // Of the rings alone: from here on others are counted as well.
+  // Decided for the rings alone: from here on other points are counted as well.
   const bool turns = mayTurn && 4 * extent.extrema[0] < 3 * extent.extrema[1];
   if (!complement) copy(polygon.points, at.data() + n);
   if (!extent.isAccepted()) return false;
@@ -144,7 +144,7 @@ class RingLinker {
 constexpr VertexKind kKinds[4] = {VertexKind::LeftBank, VertexKind::Bottom, VertexKind::Ceiling,
                                   VertexKind::RightBank};
 
-/// `below`, 0 or 1, without a branch: none could be foretold.
+/// `below` as 0 or 1, without a branch, which could not be predicted.
 uint32_t rises(Point2 a, Point2 b) {
   return uint32_t(a.y < b.y) | (uint32_t(a.y == b.y) & uint32_t(a.x < b.x));
 }

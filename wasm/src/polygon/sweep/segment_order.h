@@ -1,4 +1,5 @@
-// The segments along a sweep line from left to right: a list for neighbours and a treap for places.
+// The segments along a sweep line from left to right: a list of neighbours,
+// and a treap to find places.
 // Source: Seidel, Aragon 1996, "Randomized search trees". Differs: priorities are hashes of the
 // segments' numbers, so that every run is the same.
 #pragma once
@@ -10,7 +11,7 @@
 
 namespace sf {
 
-/// An ordered set of numbers below a capacity, whose order is known by place alone.
+/// An ordered set of numbers below a capacity. Where a number is inserted decides its order.
 class SegmentOrder {
  public:
   /// Empties the set and makes room for the numbers below `capacity`.

@@ -16,7 +16,8 @@ namespace {
 
 constexpr size_t kFewToRank = 128;
 constexpr size_t kFewInBucket = 8, kMostLayers = 1024;
-// Events whose data are touched at once; from how many nodes on they do not fit the nearer caches.
+// How many events' data are touched at once; and the number of nodes from which they do not fit the
+// nearer caches.
 constexpr size_t kAhead = 64, kFarApart = 32768;
 bool comesBefore(const State::Event& a, const State::Event& b) {
   return below(a.at, b.at) || (a.at == b.at && a.node < b.node);
@@ -54,7 +55,7 @@ Outcome PlaneSweep::run(const PolygonView& polygon, bool sagsOnly, bool mayTurn,
                         LinkedPolygon& linked, Visibility& seen) {
   const Outcome outcome = run(polygon, false, sagsOnly, mayTurn, work, linked, seen);
   if (outcome.ok() || !linked.turned || !work.going()) return outcome;
-  // Of several faults the same one is told, whichever way the sweep has run.
+  // If there are several faults, the same one is reported whichever way the sweep has run.
   return run(polygon, false, sagsOnly, false, work, linked, seen);
 }
 
@@ -92,7 +93,7 @@ Outcome PlaneSweep::run(const PolygonView& polygon, bool complement, bool sagsOn
   return s.outcome;
 }
 
-/// Names two consecutive edges in one direction, if there are any, in place of what they cause.
+/// Reports two consecutive edges in one direction, if there are any, in place of what they cause.
 void State::findSpike() {
   const ArrayView<const Point2> at = loops->at;
   const uint32_t rings = uint32_t(view->starts.size()) - 1;
@@ -144,13 +145,13 @@ uint32_t State::numberChains() {
   return count;
 }
 
-/// The same for the nodes from `first` to `end`, with records from `record` on: along the loop, a chain
-/// that leads down, the minimum, the one that leads up from it, the maximum.
+/// The same for the nodes from `first` to `end`, with records from `record` on. Along the loop come
+/// a chain that leads down, the minimum, the chain that leads up from it, the maximum.
 uint32_t State::numberRing(uint32_t first, uint32_t end, bool backwards, uint32_t record) {
   const VertexKind* kind = loops->kind.data();
   const uint32_t size = end - first, begin = backwards ? end - 1 : first,
                  step = backwards ? kNone : 1;
-  // Where the ring begins on a way up, its minimum comes last.
+  // If the ring begins on a way up, its minimum comes last.
   uint32_t v = begin;
   while (kind[v] == VertexKind::Unused) v += step;
   const bool startsUp = kind[v] == VertexKind::RightBank || kind[v] == VertexKind::Ceiling;
@@ -168,8 +169,8 @@ uint32_t State::numberRing(uint32_t first, uint32_t end, bool backwards, uint32_
   return next;
 }
 
-/// The record of an edge at the height of a local minimum not far from it along its loop, if there is
-/// one.
+/// The record of an edge at the height of a local minimum, not far from it along its loop;
+/// or kNone.
 uint32_t State::edgeNear(uint32_t v) const {
   const Point2 at = loops->at[v];
   uint32_t after = v, before = v;
@@ -211,8 +212,9 @@ size_t State::makeEvents(bool hints) {
   return count;
 }
 
-/// Makes few events in the order of keys, the heights in 2^23 steps: each goes where as many are below it,
-/// which takes no branches. Those of unused nodes all come to be at one place past the others.
+/// Makes the events in order, if they are few. A key is a height in 2^23 steps. An event's place is
+/// the number of keys below its own, which takes no branches. Events of unused nodes all get one
+/// place past the others.
 void State::rankEvents(bool hints, double toKey) {
   using Int4 = int32_t __attribute__((vector_size(16)));
   constexpr size_t kAtOnce = 16;
@@ -242,8 +244,8 @@ void State::rankEvents(bool hints, double toKey) {
   }
 }
 
-/// Sorts the events by height: into as many buckets, which layers share in as they do in events, then
-/// each bucket.
+/// Sorts the events by height: first into as many buckets as events, then each bucket. A layer of
+/// equal height has as many buckets as events.
 void State::sortEvents() {
   const size_t count = events.size(), layerCount = std::min(count / kFewInBucket, kMostLayers);
   const double scale = double(layerCount) / (loops->greatest.y - loops->least.y);
@@ -292,8 +294,8 @@ void State::sortNearby() {
   }
 }
 
-/// Reads what the next events will need, without waiting for any of it: so the delays of memory
-/// overlap, which one after the other would take most of the time for large polygons.
+/// Reads what the next events will need, without waiting for it. So the delays of memory overlap;
+/// one after the other they would take most of the time for large polygons.
 void State::touchAhead(size_t i, size_t end) {
   const auto touchEdge = [&](uint32_t e) {
     if (e < edges.capacity()) touched += edges[e].lower;
@@ -479,8 +481,8 @@ bool State::crossing(uint32_t inputA, uint32_t inputB) {
   return false;
 }
 
-/// Records that the loop at vertex `input` is not where the polygon needs it, beside the edge from
-/// `besideInput`, or left of everything.
+/// Records that the loop at vertex `input` is not where the polygon needs it: it is beside the edge
+/// from `besideInput`, or left of everything.
 void State::misplace(uint32_t input, uint32_t besideInput) {
   if (!misplaced.ok()) return;
   uint32_t ring = ringOf(input), around = besideInput == kNone ? 0 : ringOf(besideInput);

@@ -14,9 +14,9 @@ struct SweepState {
     Point2 at;
     uint32_t node;
     uint32_t edge;    // the record of a chain (`chains`) that the node is on
-    uint32_t near;    // of a local minimum: the record of an edge which will not be far from it, or
-                      // kNone; on a bank: the node to which the link up leads
-    VertexKind kind;  // as the two edges alone tell
+    uint32_t near;    // of a local minimum: the record of an edge not far from it, or kNone;
+                      // on a bank: the node to which the link up leads
+    VertexKind kind;  // by the two edges alone
   };
   /// One of the edges at a point where loops touch: `other` is the node at its other end, `node`
   /// the one at the point. `down`: it leads from the upper to the lower end.
@@ -28,8 +28,8 @@ struct SweepState {
     bool down;
   };
 
-  /// One of the layers of even height that events are sorted by: the number of events below it and in
-  /// it.
+  /// One of the layers of equal height by which events are sorted: the number of events below it
+  /// and in it.
   struct Layer {
     double below, count;
   };
@@ -39,14 +39,15 @@ struct SweepState {
   Buffer<Event> events, unsorted;
   std::vector<Layer> layers;
   Buffer<uint32_t> buckets, places;
-  // [m] The edges of a ring that lead up from a local minimum to a local maximum share one record,
-  // 2i or 2i+1 for minimum i. Of a node between two such chains the one along which its ring runs up.
+  // [m] The record of an edge at each node. The edges of a ring from a local minimum up to a local
+  // maximum share one record, 2i or 2i + 1 for minimum i. A node between two such chains has the
+  // one along which its ring runs up.
   Buffer<uint32_t> chains;
   std::vector<uint8_t> reversed;
   std::vector<HalfEdge> lower, upper;
   std::vector<uint32_t> strands;
 
-  uint64_t touched = 0;  // what touchAhead read, so that it is read
+  uint64_t touched = 0;  // sum of what touchAhead read, so that the reads are not dropped
 
   // Of this polygon.
   const PolygonView* view = nullptr;

@@ -25,7 +25,7 @@ bool State::passTouch(size_t i, size_t count) {
   isPlain = false;
   for (size_t k = 0; k < count; ++k)
     if (loops->kind[events[i + k].node] == VertexKind::Island) {
-      misplaced = {};  // told first: nothing else is at an isolated point's place
+      misplaced = {};  // reported first: nothing else is at an isolated point's place
       misplace(events[i + k].node, kNone);
       outcome = misplaced;
       return false;
@@ -47,8 +47,8 @@ bool State::passTouch(size_t i, size_t count) {
   return true;
 }
 
-/// The edges through the point, or ending there, which have to be consecutive; `left` is the one
-/// before them. kNone for `first` and `last` if there is none.
+/// The edges that end at the point or pass through it, which have to be consecutive. `left` is the
+/// one before them. `first` and `last` are kNone if there are none.
 bool State::findBlock(size_t i, size_t count, uint32_t& first, uint32_t& last, uint32_t& left) {
   const Point2 at = events[i].at;
   size_t ends = 0;
@@ -81,7 +81,7 @@ bool State::findBlock(size_t i, size_t count, uint32_t& first, uint32_t& last, u
   return true;
 }
 
-/// Names two neighbours in the order that have changed places below the point.
+/// Reports two neighbours in the order that have changed places below the point.
 bool State::reportDisorder(Point2 at) {
   double before = -1;
   uint32_t previous = kNone;
@@ -135,7 +135,7 @@ bool State::collect(size_t i, size_t count, uint32_t first, uint32_t last, Point
   for (size_t k = 1; k < upper.size(); ++k) {
     const HalfEdge &a = upper[k - 1], &b = upper[k];
     if (turn(at, a.to, b.to) != 0) continue;
-    return crossing(a.input, b.input);  // if it is a spike, the end of the sweep tells
+    return crossing(a.input, b.input);  // findSpike reports spikes at the end
   }
   return true;
 }
@@ -169,7 +169,7 @@ bool State::strandsPart() {
 /// Whether edges that lead down and up alternate at the point, as they do where the winding number
 /// is 0 and 1 by turns. Loops may change sides at the point as long as that is so.
 bool State::alternates(uint32_t left) {
-  if (!misplaced.ok()) {  // then nothing is known of what lies below
+  if (!misplaced.ok()) {  // nothing is known then of what lies below
     for (size_t k = 1; k < lower.size(); ++k)
       if (lower[k].down == lower[k - 1].down) return false;
   }
@@ -187,8 +187,8 @@ bool State::alternates(uint32_t left) {
 }
 
 /// Makes a node of each corner of the polygon at the point; `left` and `right` are the edges beside
-/// the point. Source: Ronfard, Rossignac 1994, sec. 1: at non-manifold vertices the next edge is the
-/// first one clockwise.
+/// the point. Source: Ronfard, Rossignac 1994, sec. 1: at non-manifold vertices the next edge is
+/// the first one clockwise.
 void State::relink(uint32_t left, uint32_t right) {
   const bool insideLeft = lower.empty() ? isInside(left) : !lower[0].down;
   const bool insideRight = lower.empty()   ? insideLeft
