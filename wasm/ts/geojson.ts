@@ -1,9 +1,10 @@
 // triangulateGeoJSON: the polygons of features and geometries, feature by feature.
 import { guarded, mustBe, optionsOf } from './check.js';
+import { computePolygons } from './compute_polygons.js';
+import type { FlatPolygons } from './flat_polygons.js';
 import { SoapfilmError } from './errors.js';
 import { kPolygonsOptions } from './options.js';
-import { triangulate } from './polygon.js';
-import { flattenPolygons, polygonOptionsOf, type FlatPolygons } from './polygon_input.js';
+import { flattenPolygons, polygonOptionsOf } from './polygon_input.js';
 import type { GeoJSONLike, GeoJSONTriangulation, PolygonsOptions } from './types.js';
 
 /** Types of geometries that have no inside. */
@@ -22,8 +23,8 @@ export function triangulateGeoJSON(
   options: PolygonsOptions = {},
 ): GeoJSONTriangulation {
   const { flat, featureStarts } = flattenGeoJSON(geojson);
-  const checked = polygonOptionsOf(optionsOf(options, kPolygonsOptions));
-  return { ...triangulate(flat, checked, true), positions: flat.positions, featureStarts };
+  const checked = polygonOptionsOf(optionsOf(options, kPolygonsOptions), flat);
+  return { ...computePolygons(flat, checked, true), positions: flat.positions, featureStarts };
 }
 
 /** More geometries than any text holds; objects that are listed again and again may come to that. */

@@ -10,9 +10,6 @@ import type {
   Weights,
 } from './types.js';
 
-/** What the core may use unless told otherwise; WebAssembly memory ends at 4 GiB. */
-export const kDefaultMemoryBytes = 3 * 2 ** 30;
-
 export const kParts: readonly Part[] = ['loops', 'polygons'];
 
 export const kLoadOptions: Names<LoadOptions> = { parts: true, wasm: true, checks: true };

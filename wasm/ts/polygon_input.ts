@@ -1,5 +1,5 @@
 // Polygons and their options as callers give them, checked and made flat for the core.
-import { kMethodChoices, kRepairChoices } from './border.js';
+import { kChoices, type FlatPolygons } from './flat_polygons.js';
 import { SoapfilmError, type ErrorCode } from './errors.js';
 import {
   choiceOf,
@@ -22,42 +22,23 @@ import type {
   PolygonsOptions,
 } from './types.js';
 
-/** Polygons as the core takes them. */
-export interface FlatPolygons {
-  readonly positions: Float64Array;
-  readonly ringStarts: Uint32Array;
-  readonly polygonStarts: Uint32Array;
-  readonly dim: 2 | 3;
-  readonly points?: Float64Array | undefined;
-}
-
-/** The choices of each option, the default first; the core counts them in this order. */
-export const kChoices = {
-  method: kMethodChoices,
-  repair: kRepairChoices,
-  quality: ['fast', 'delaunay'],
-  output: ['triangles', 'strips'],
-} as const;
-
 /**
- * Options of polygons, checked, without those that were left out.
+ * Options for these polygons, checked, without those that were left out.
  * @throws SoapfilmError `bad-option`
  */
-export function polygonOptionsOf(options: Given<PolygonsOptions>): PolygonsOptions {
+export function polygonOptionsOf(options: Given<PolygonsOptions>, polygons: FlatPolygons): PolygonsOptions {
   const checked: Record<string, unknown> = { ...limitsOf(options) };
   for (const [name, value] of Object.entries(options) as [keyof PolygonsOptions, unknown][]) {
     if (name in checked) continue;
     const choices = (kChoices as Partial<Record<string, readonly string[]>>)[name];
     checked[name] = choices ? choiceOf(name, choices, value) : flagOf(name, value);
   }
+  checkTogether(polygons, checked);
   return checked;
 }
 
-/**
- * Options that do not go together.
- * @throws SoapfilmError `bad-option`, naming them
- */
-export function checkTogether({ polygonStarts, points }: FlatPolygons, options: PolygonsOptions): void {
+/** Options that do not go together, or not with the input. */
+function checkTogether({ polygonStarts, points }: FlatPolygons, options: PolygonsOptions): void {
   const { trace = false, method, repair = 'none' } = options;
   const bad = (text: string): SoapfilmError => new SoapfilmError('bad-option', text);
   if (trace && method === 'trapezoids') throw bad("`trace` records flooding: it does not go with `method: 'trapezoids'`");

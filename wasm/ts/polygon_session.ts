@@ -15,9 +15,9 @@ import { guarded, isIndex, mustBe, optionsOf } from './check.js';
 import { SoapfilmError } from './errors.js';
 import { putPoints } from './flatten.js';
 import { ringError } from './messages.js';
-import { kDefaultMemoryBytes, limitsOf } from './options.js';
+import { limitsOf } from './options.js';
 import { flattenPolygon } from './polygon_input.js';
-import type { CoreArgument } from './runtime.js';
+import { kDefaultMemoryBytes, type CoreArgument } from './runtime.js';
 import { Session } from './session.js';
 import type { Point2Like, PolygonEdit, PolygonLike, PolygonOptions, PolygonState } from './types.js';
 

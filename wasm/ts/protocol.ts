@@ -1,8 +1,9 @@
 // What the pool and its threads say to each other.
 import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
 import type { Modules } from './compile.js';
-import type { computeSpan } from './loops.js';
-import type { triangulatePolygon, triangulatePolygons } from './polygon.js';
+import type { FlatPolygons } from './flat_polygons.js';
+import type { computeSpan } from './compute_span.js';
+import type { PolygonsOptions, PolygonTriangulation, PolygonsTriangulation } from './types.js';
 
 /**
  * The functions that a thread can be asked for. Each takes an input and options, checked and made flat on
@@ -10,8 +11,8 @@ import type { triangulatePolygon, triangulatePolygons } from './polygon.js';
  */
 export interface Calls {
   readonly spanLoops: typeof computeSpan;
-  readonly triangulatePolygon: typeof triangulatePolygon;
-  readonly triangulatePolygons: typeof triangulatePolygons;
+  readonly triangulatePolygon: (polygon: FlatPolygons, options: PolygonsOptions) => PolygonTriangulation;
+  readonly triangulatePolygons: (polygons: FlatPolygons, options: PolygonsOptions) => PolygonsTriangulation;
 }
 
 /** To a thread: first of all the core's parts, then one call at a time. */

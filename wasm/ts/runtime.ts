@@ -51,6 +51,8 @@ export const shared: Readonly<Record<Part, Home>> = {
   polygons: new Home('polygons'),
 };
 
+/** What a call may use unless told otherwise; WebAssembly memory ends at 4 GiB. */
+export const kDefaultMemoryBytes = 3 * 2 ** 30;
 const kProgressMs = 30;
 /**
  * WebAssembly memory never shrinks: an instance that has grown past this is given up once it has been

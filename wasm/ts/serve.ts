@@ -1,6 +1,6 @@
 // A thread's side of the pool: runs the calls that it is sent, one after the other.
-import { computeSpan } from './loops.js';
-import { triangulatePolygon, triangulatePolygons } from './polygon.js';
+import { computePolygons, triangulationOfOne } from './compute_polygons.js';
+import { computeSpan } from './compute_span.js';
 import { buffersOf, packError, packErrors, type Calls, type Reply, type Request } from './protocol.js';
 import { startCore } from './runtime.js';
 import type { Part, PolygonOptions, SpanOptions } from './types.js';
@@ -12,7 +12,11 @@ export interface Port {
 }
 
 /** The end of a span is for the pool to tell of, once it has it. */
-const calls: Calls = { spanLoops: computeSpan, triangulatePolygon, triangulatePolygons };
+const calls: Calls = {
+  spanLoops: computeSpan,
+  triangulatePolygon: (polygon, options) => triangulationOfOne(computePolygons(polygon, options, false)),
+  triangulatePolygons: (polygons, options) => computePolygons(polygons, options, true),
+};
 
 /** Answers the requests that come through `port`, as long as the thread lives. */
 export function serve(port: Port): void {

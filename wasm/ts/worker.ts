@@ -3,10 +3,11 @@
 import { guarded, mustBe, optionsOf } from './check.js';
 import { kDispose } from './dispose.js';
 import { compile } from './compile.js';
+import type { FlatPolygons } from './flat_polygons.js';
 import { flattenLoops } from './flatten.js';
 import { flattenGeoJSON } from './geojson.js';
 import { kLoadOptions, kPolygonOptions, kPolygonsOptions, kSpanOptions } from './options.js';
-import { flattenBatch, flattenPolygon, polygonOptionsOf, type FlatPolygons } from './polygon_input.js';
+import { flattenBatch, flattenPolygon, polygonOptionsOf } from './polygon_input.js';
 import { Pool } from './pool.js';
 import { unpackErrors } from './protocol.js';
 import { tellEnd } from './report.js';
@@ -84,13 +85,12 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
     pool.dispose();
   };
   const several = async <T extends PolygonsTriangulation>(
-    { positions, ringStarts, polygonStarts, dim }: FlatPolygons,
+    flat: FlatPolygons,
     options: PolygonsOptions & CallOptions = {},
   ): Promise<T> => {
     const { signal, ...given } = optionsOf<PolygonsOptions & CallOptions>(options, { ...kPolygonsOptions, signal: true });
-    const input = { positions, ringStarts, polygonStarts, dim };
     const watch = { signal: signalOf(signal) };
-    return unpackErrors((await pool.call('triangulatePolygons', [input, polygonOptionsOf(given)], watch)) as T);
+    return unpackErrors((await pool.call('triangulatePolygons', [flat, polygonOptionsOf(given, flat)], watch)) as T);
   };
   return {
     async spanLoops(loops, options = {}) {
@@ -123,11 +123,10 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
       return span;
     },
     async triangulatePolygon(polygon, options = {}) {
-      const { positions, ringStarts: starts, dim, points } = flattenPolygon(polygon, true);
-      const input = { positions, starts, dim, ...(points && { points }) };
+      const flat = flattenPolygon(polygon, true);
       const { signal, ...given } = optionsOf<PolygonOptions & CallOptions>(options, { ...kPolygonOptions, signal: true });
       const watch = { signal: signalOf(signal) };
-      const result = await pool.call('triangulatePolygon', [input, polygonOptionsOf(given)], watch);
+      const result = await pool.call('triangulatePolygon', [flat, polygonOptionsOf(given, flat)], watch);
       return result as PolygonTriangulation;
     },
     triangulatePolygons: async (polygons, options) => several(flattenBatch(polygons, true), options),

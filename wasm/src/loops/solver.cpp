@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 
 #include "base/sort.h"
 #include "loops/bounds/fan_bound.h"
@@ -33,17 +32,21 @@ constexpr uint32_t kTriesPerRound = 24;
 /// Sums in another order differ in the last digits.
 double withRounding(double cost) { return cost + 1e-9 * std::fabs(cost); }
 
-/// The bound that the costs of triangles alone prove: a surface has n + 2k - 4 triangles, and
-/// angles cost at least 0. Infinity if fewer triangles are allowed.
+/// What the costs of triangles alone prove: a surface has n + 2k - 4 of them, each at most once, and angles cost
+/// nothing at least. Infinity if so many triangles are not allowed.
 double boundOfCosts(const Task& task) {
   if (task.measure.isWorst()) return 0;
-  std::vector<double> costs;
-  for (const double cost : task.triangleCost)
-    if (cost < kInfinity) costs.push_back(cost);
+  double negative = 0, least = kInfinity;
+  size_t allowed = 0;
+  for (const double cost : task.triangleCost) {
+    if (cost == kInfinity) continue;
+    ++allowed;
+    negative += std::min(cost, 0.0);
+    least = std::min(least, cost);
+  }
   const size_t count = size_t(task.loops.vertexCount()) + 2 * size_t(task.loops.loopCount()) - 4;
-  if (costs.size() < count) return kInfinity;
-  std::nth_element(costs.begin(), costs.begin() + std::ptrdiff_t(count), costs.end());
-  return std::accumulate(costs.begin(), costs.begin() + std::ptrdiff_t(count), 0.0);
+  if (allowed < count) return kInfinity;
+  return negative < 0 ? negative : double(count) * least;
 }
 
 /// Solves one pass: keeps the best surface and the bound as they get better.

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/accurate_cross.h"
 #include "base/predicates.h"
-#include "base/sort.h"
 #include "loops/problem/weight.h"
 
 namespace sf {
@@ -23,6 +23,18 @@ constexpr size_t kMostSides = 12;
 constexpr size_t kBeginnings = 2;
 /// Nanoseconds for each cell of a band's table.
 constexpr uint32_t kTimeOfCell = 100;
+
+/// Something by its number, and what it is ranked by.
+using Ranked = std::pair<double, uint32_t>;
+
+/// Keeps the `count` least, in increasing order.
+void keepLeast(std::vector<Ranked>& items, size_t count) {
+  count = std::min(count, items.size());
+  for (size_t i = 0; i < count; ++i)
+    for (size_t j = i + 1; j < items.size(); ++j)
+      if (items[j] < items[i]) std::swap(items[i], items[j]);
+  items.resize(count);
+}
 
 /// The triangles so far, wound alike.
 class Patchwork {
@@ -47,6 +59,10 @@ class Patchwork {
         kInfinity;  // with the angles to what is around the disc, less what the disc costs
     std::vector<Triangle> triangles;
   };
+  struct Try {
+    Disc disc;
+    Band band;
+  };
   /// What stands across each side of a disc: its normal, or zero where a loop runs.
   using Around = std::vector<Vec3>;
 
@@ -60,7 +76,10 @@ class Patchwork {
   double costOf(const Disc& disc, Around& around) const;
   /// The disc with the triangle across a side added; empty if its boundary would touch itself.
   Disc grown(const Disc& disc, size_t side) const;
+  /// How far a loop is from p, and its vertex there.
+  Ranked distanceTo(uint32_t loop, Vec3 p) const;
   Band sew(const Disc& disc, uint32_t loop);
+  void grow(Try& grows, uint32_t loop);
   void sewFrom(const std::vector<uint32_t>& boundary, const Around& around,
                const std::vector<uint32_t>& way, Band& best);
 
@@ -118,6 +137,13 @@ uint32_t Patchwork::triangleAt(uint32_t a, uint32_t b) const {
     for (int i = 0; i < 3; ++i)
       if (triangles_[t][i] == a && triangles_[t][(i + 1) % 3] == b) return t;
   return kNone;
+}
+
+Ranked Patchwork::distanceTo(uint32_t loop, Vec3 p) const {
+  Ranked nearest{kInfinity, kNone};
+  for (uint32_t v = loops_.first(loop); v < loops_.first(loop) + loops_.size(loop); ++v)
+    nearest = std::min(nearest, Ranked{distance(p, loops_.position(v)), v});
+  return nearest;
 }
 
 double Patchwork::costOf(const Disc& disc, Around& around) const {
@@ -230,102 +256,73 @@ Patchwork::Band Patchwork::sew(const Disc& disc, uint32_t loop) {
   Around around;
   const double saved = costOf(disc, around);
   const uint32_t first = loops_.first(loop), l = loops_.size(loop);
-  // For each corner the nearest vertex of the loop.
-  struct Beginning {
-    double distance;
-    size_t corner;
-    uint32_t vertex;
-    bool operator<(const Beginning& b) const {
-      return distance < b.distance || (distance == b.distance && corner < b.corner);
-    }
-  };
-  std::vector<Beginning> beginnings;
-  for (size_t c = 0; c < disc.boundary.size(); ++c) {
-    Beginning nearest{kInfinity, c, first};
-    for (uint32_t v = first; v < first + l; ++v) {
-      const double d = distance(loops_.position(disc.boundary[c]), loops_.position(v));
-      if (d < nearest.distance) nearest.distance = d, nearest.vertex = v;
-    }
-    beginnings.push_back(nearest);
-  }
-  sf::sort(beginnings.begin(), beginnings.end());
-  beginnings.resize(std::min(beginnings.size(), kBeginnings));
+  std::vector<Ranked> corners;
+  for (uint32_t c = 0; c < disc.boundary.size(); ++c)
+    corners.push_back({distanceTo(loop, loops_.position(disc.boundary[c])).first, c});
+  keepLeast(corners, kBeginnings);
   Band best;
-  for (const Beginning& begin : beginnings) {
+  for (const Ranked& corner : corners) {
     std::vector<uint32_t> boundary = disc.boundary;
     Around turned = around;
-    std::rotate(boundary.begin(), boundary.begin() + std::ptrdiff_t(begin.corner), boundary.end());
-    std::rotate(turned.begin(), turned.begin() + std::ptrdiff_t(begin.corner), turned.end());
-    for (const bool forward : {true, false}) {
-      std::vector<uint32_t> way;
-      for (uint32_t i = 0, v = begin.vertex; i < l; ++i) {
-        way.push_back(v);
-        v = forward ? loops_.next(v) : loops_.previous(v);
-      }
-      sewFrom(boundary, turned, way, best);
-    }
+    std::rotate(boundary.begin(), boundary.begin() + corner.second, boundary.end());
+    std::rotate(turned.begin(), turned.begin() + corner.second, turned.end());
+    const uint32_t begin = distanceTo(loop, loops_.position(boundary[0])).second;
+    std::vector<uint32_t> way;
+    for (uint32_t i = 0; i < l; ++i) way.push_back(first + (begin - first + i) % l);
+    sewFrom(boundary, turned, way, best);
+    std::reverse(way.begin() + 1, way.end());
+    sewFrom(boundary, turned, way, best);
   }
   best.cost -= saved;
   return best;
 }
 
-bool Patchwork::insert(uint32_t loop) {
-  struct Near {
-    double distance;
-    uint32_t triangle;
-    bool operator<(const Near& n) const {
-      return distance < n.distance || (distance == n.distance && triangle < n.triangle);
+/// Lets a disc grow by the triangles across its sides while that makes its band cheaper.
+void Patchwork::grow(Try& grows, uint32_t loop) {
+  for (bool more = true; more && grows.disc.boundary.size() < kMostSides && work_.going();) {
+    more = false;
+    const Disc now = grows.disc;
+    for (size_t side = 0; side < now.boundary.size(); ++side) {
+      Try larger{grown(now, side), {}};
+      if (larger.disc.boundary.empty()) continue;
+      larger.band = sew(larger.disc, loop);
+      if (!(larger.band.cost < grows.band.cost)) continue;
+      grows = std::move(larger);
+      more = true;
     }
-  };
-  std::vector<Near> nearest;
+  }
+}
+
+bool Patchwork::insert(uint32_t loop) {
+  std::vector<Ranked> nearest;
   for (uint32_t t = 0; t < triangles_.size(); ++t) {
     Vec3 middle{0, 0, 0};
     for (const uint32_t v : triangles_[t]) middle = middle + (1.0 / 3) * loops_.position(v);
-    double d = kInfinity;
-    for (uint32_t v = loops_.first(loop); v < loops_.first(loop) + loops_.size(loop); ++v)
-      d = std::min(d, distance(middle, loops_.position(v)));
-    nearest.push_back({d, t});
+    nearest.push_back({distanceTo(loop, middle).first, t});
   }
-  sf::sort(nearest.begin(), nearest.end());
-  nearest.resize(std::min(nearest.size(), kDiscs));
-  struct Try {
-    Disc disc;
-    Band band;
-  };
+  keepLeast(nearest, kDiscs);
   std::vector<Try> tries;
-  for (const Near& near : nearest) {
-    const Triangle& t = triangles_[near.triangle];
-    Try first{{{near.triangle}, {t[0], t[1], t[2]}}, {}};
+  std::vector<Ranked> cheapest;
+  for (const Ranked& near : nearest) {
+    const Triangle& t = triangles_[near.second];
+    Try first{{{near.second}, {t[0], t[1], t[2]}}, {}};
     first.band = sew(first.disc, loop);
+    cheapest.push_back({first.band.cost, uint32_t(tries.size())});
     tries.push_back(std::move(first));
   }
-  sf::sort(tries.begin(), tries.end(),
-           [](const Try& a, const Try& b) { return a.band.cost < b.band.cost; });
-  tries.resize(std::min(tries.size(), kGrown));
+  keepLeast(cheapest, kGrown);
   Try best;
-  for (Try& grows : tries) {
-    for (bool more = true; more && grows.disc.boundary.size() < kMostSides;) {
-      more = false;
-      const Disc now = grows.disc;
-      for (size_t side = 0; side < now.boundary.size(); ++side) {
-        Try larger{grown(now, side), {}};
-        if (larger.disc.boundary.empty()) continue;
-        larger.band = sew(larger.disc, loop);
-        if (!(larger.band.cost < grows.band.cost)) continue;
-        grows = std::move(larger);
-        more = true;
-      }
-      if (!work_.going()) return false;
-    }
+  for (const Ranked& cheap : cheapest) {
+    Try& grows = tries[cheap.second];
+    grow(grows, loop);
     if (grows.band.cost < best.band.cost) best = std::move(grows);
   }
-  if (best.band.cost == kInfinity) return false;
-  std::vector<uint32_t>& out = best.disc.triangles;
-  sf::sort(out.begin(), out.end());
-  for (size_t i = out.size(); i-- > 0;) {
-    triangles_[out[i]] = triangles_.back();
-    triangles_.pop_back();
-  }
+  if (best.band.cost == kInfinity || !work_.going()) return false;
+  for (const uint32_t t : best.disc.triangles) triangles_[t][0] = kNone;
+  size_t kept = 0;
+  for (const Triangle& t : triangles_)
+    if (t[0] != kNone) triangles_[kept++] = t;
+  triangles_.resize(kept);
   triangles_.insert(triangles_.end(), best.band.triangles.begin(), best.band.triangles.end());
   return true;
 }

@@ -1,0 +1,19 @@
+// What the two sides of a triangulation, checking and computing, have in common.
+import { kMethodChoices, kRepairChoices } from './border.js';
+
+/** Polygons as the core takes them. */
+export interface FlatPolygons {
+  readonly positions: Float64Array;
+  readonly ringStarts: Uint32Array;
+  readonly polygonStarts: Uint32Array;
+  readonly dim: 2 | 3;
+  readonly points?: Float64Array | undefined;
+}
+
+/** The choices of each option, the default first; the core counts them in this order. */
+export const kChoices = {
+  method: kMethodChoices,
+  repair: kRepairChoices,
+  quality: ['fast', 'delaunay'],
+  output: ['triangles', 'strips'],
+} as const;
