@@ -10,7 +10,7 @@ namespace {
 
 /// Calls of the progress function, one for each million units of work: enough to get from the first space to the
 /// next, not to end in each.
-constexpr uint32_t kTicks = 16, kTicksOfMany = 60;
+constexpr uint32_t kTicks = 12, kTicksOfMany = 40;
 
 }  // namespace
 
