@@ -70,7 +70,7 @@ TEST_CASE("locate: a triangle that holds the point, on an edge exactly where tha
   }
 }
 
-TEST_CASE("locate: nothing outside of the triangles; a walk of few steps may give up") {
+TEST_CASE("locate: nothing outside of the triangles, and a walk of few steps may give up") {
   Random random(911);
   const Lattice lattice(12, random);
   Locator locator;
