@@ -65,3 +65,9 @@ export class SoapfilmError extends Error implements ErrorPlace {
     Object.assign(this, place);
   }
 }
+
+/** That a part is missing which a call needs. */
+export function notLoaded(part: string): SoapfilmError {
+  const text = `The part '${part}' is not loaded: name it in \`parts\` of \`load\` or \`createWorker\``;
+  return new SoapfilmError('not-loaded', text);
+}

@@ -1,5 +1,5 @@
 // What the options of all functions have in common.
-import { mustBe, type Given, type Names } from './check.js';
+import { guarded, mustBe, type Given, type Names } from './check.js';
 import type {
   CandidateList,
   LoadOptions,
@@ -61,4 +61,13 @@ export function limitsOf({ maxMemoryBytes, maxSeconds }: Given<Limits>): Limits 
     throw mustBe('bad-option', name, 'a number and not negative', value);
   }
   return Object.fromEntries(given);
+}
+
+/** The signal of an asynchronous call, checked. */
+export function signalOf(signal: unknown): AbortSignal | undefined {
+  if (signal === undefined) return undefined;
+  // Heirs of the prototype that are none throw here.
+  const isSignal = (): boolean => signal instanceof AbortSignal && typeof signal.aborted === 'boolean';
+  if (guarded('bad-option', 'signal', isSignal)) return signal as AbortSignal;
+  throw mustBe('bad-option', 'signal', 'an AbortSignal', signal);
 }

@@ -1,7 +1,7 @@
 // Instances of the core's parts, which are modules, and the one way to call them. Only this file knows
 // pointers and memory.
 import { kPlaceLength, readPlace, Status, type ArrayReader, type Place } from './border.js';
-import { SoapfilmError } from './errors.js';
+import { notLoaded, SoapfilmError } from './errors.js';
 import { statusError } from './messages.js';
 import { report } from './report.js';
 import type { Part, ProgressListener } from './types.js';
@@ -181,7 +181,7 @@ function open(part: Part, { exports }: WebAssembly.Instance): Core {
  */
 export function start(home: Home): void {
   const module = modules[home.part];
-  if (!module) throw notLoaded(home.part);
+  if (!module) throw lackOf(home.part);
   home.core ??= open(home.part, new WebAssembly.Instance(module, imports(module)));
 }
 
@@ -289,13 +289,9 @@ function giveUpWhenIdle(home: Home): void {
   }
 }
 
-function notLoaded(part: Part): SoapfilmError {
-  return new SoapfilmError(
-    'not-loaded',
-    Object.keys(modules).length === 0
-      ? 'Call `await load()` first'
-      : `The part '${part}' is not loaded: name it in \`parts\` of \`load\` or \`createWorker\``,
-  );
+function lackOf(part: Part): SoapfilmError {
+  if (Object.keys(modules).length > 0) return notLoaded(part);
+  return new SoapfilmError('not-loaded', 'Call `await load()` first');
 }
 
 /** `callCore` in one instance: arguments in, call, results out, everything freed. */

@@ -1,15 +1,12 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 // The entry `soapfilm/worker`: the library's functions in threads of their own.
-import { guarded, mustBe, optionsOf } from './check.js';
-import { kDispose } from './dispose.js';
+import { mustBe, optionsOf } from './check.js';
 import { compile } from './compile.js';
-import type { FlatPolygons } from './flat_polygons.js';
+import { kDispose } from './dispose.js';
+import { notLoaded } from './errors.js';
 import { flattenLoops } from './flatten.js';
-import { flattenGeoJSON } from './geojson.js';
-import { kLoadOptions, kPolygonOptions, kPolygonsOptions, kSpanOptions } from './options.js';
-import { flattenBatch, flattenPolygon, polygonOptionsOf } from './polygon_input.js';
+import { kLoadOptions, kSpanOptions, signalOf } from './options.js';
 import { Pool } from './pool.js';
-import { unpackErrors } from './protocol.js';
 import { tellEnd } from './report.js';
 import { spanOptionsOf } from './span_input.js';
 import type {
@@ -79,19 +76,16 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
   if (typeof size !== 'number' || !Number.isInteger(size) || size < 1) {
     throw mustBe('bad-option', 'size', 'a whole number of threads, at least 1', size);
   }
-  const pool = new Pool(await compile(given as LoadOptions), size);
+  const modules = await compile(given as LoadOptions);
+  const pool = new Pool(modules, size);
   await pool.start();
   const dispose = (): void => {
     pool.dispose();
   };
-  const several = async <T extends PolygonsTriangulation>(
-    flat: FlatPolygons,
-    options: PolygonsOptions & CallOptions = {},
-  ): Promise<T> => {
-    const { signal, ...given } = optionsOf<PolygonsOptions & CallOptions>(options, { ...kPolygonsOptions, signal: true });
-    const watch = { signal: signalOf(signal) };
-    return unpackErrors((await pool.call('triangulatePolygons', [flat, polygonOptionsOf(given, flat)], watch)) as T);
-  };
+  // Who asks for loops alone does not fetch what is for polygons.
+  const polygons = modules.polygons
+    ? (await import('./worker_polygons.js')).polygonCalls(pool)
+    : { triangulatePolygon: missing, triangulatePolygons: missing, triangulateGeoJSON: missing };
   return {
     async spanLoops(loops, options = {}) {
       const input = flattenLoops(loops, true);
@@ -122,29 +116,10 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
       tellEnd(span, onProgress);
       return span;
     },
-    async triangulatePolygon(polygon, options = {}) {
-      const flat = flattenPolygon(polygon, true);
-      const { signal, ...given } = optionsOf<PolygonOptions & CallOptions>(options, { ...kPolygonOptions, signal: true });
-      const watch = { signal: signalOf(signal) };
-      const result = await pool.call('triangulatePolygon', [flat, polygonOptionsOf(given, flat)], watch);
-      return result as PolygonTriangulation;
-    },
-    triangulatePolygons: async (polygons, options) => several(flattenBatch(polygons, true), options),
-    triangulateGeoJSON: async (geojson, options) => {
-      const { flat, featureStarts } = flattenGeoJSON(geojson);
-      // The thread's copy is handed over.
-      const positions = flat.positions.slice();
-      return { ...(await several(flat, options)), positions, featureStarts };
-    },
+    ...polygons,
     dispose,
     [kDispose]: dispose,
   };
 }
 
-function signalOf(signal: unknown): AbortSignal | undefined {
-  if (signal === undefined) return undefined;
-  // Heirs of the prototype that are none throw here.
-  const isSignal = (): boolean => signal instanceof AbortSignal && typeof signal.aborted === 'boolean';
-  if (guarded('bad-option', 'signal', isSignal)) return signal as AbortSignal;
-  throw mustBe('bad-option', 'signal', 'an AbortSignal', signal);
-}
+const missing = (): Promise<never> => Promise.reject(notLoaded('polygons'));
