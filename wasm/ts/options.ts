@@ -1,4 +1,4 @@
-// What the options of all functions have in common.
+// The names of all options, and the limits that all functions have.
 import { mustBe, type Given, type Names } from './check.js';
 import type {
   CandidateList,
@@ -51,7 +51,7 @@ export interface Limits {
 }
 
 /**
- * The limits that every function has; those left out are left out.
+ * The limits among the options, checked, without those that were left out.
  * @throws SoapfilmError `bad-option`
  */
 export function limitsOf({ maxMemoryBytes, maxSeconds }: Given<Limits>): Limits {
