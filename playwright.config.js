@@ -13,6 +13,8 @@ export default defineConfig({
   // Far more than any machine needs: they end a test that waits for what never comes.
   timeout: 1_800_000,
   expect: { timeout: 300_000, toPass: { timeout: 300_000 } },
+  // A page that does not start fails all tests, each after such a wait: the first few say enough.
+  maxFailures: 3,
   forbidOnly: Boolean(process.env.CI),
   use: {
     baseURL: `http://127.0.0.1:${port}/`,

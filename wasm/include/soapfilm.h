@@ -1,18 +1,18 @@
-// The C ABI of soapfilm's core: what the TypeScript runtime calls, and what native tests call.
-// Plain pointers and counts; nothing throws, every call checks its input. sf_span_loops is exported
-// by loops.wasm, functions for polygons by polygons.wasm, memory and result arrays by both.
+// The C ABI of soapfilm's core, for the TypeScript runtime and for native tests. It takes plain pointers and
+// counts. Nothing throws, and every call checks its input. loops.wasm exports sf_span_loops; polygons.wasm
+// exports the functions for polygons; both export those for memory and result arrays.
 //
-// Threads: none of this is safe to call from two threads at once. There is one call at a time for each
-//   instance of a module, or in a native process; instances share nothing.
+// Threads: no function may be called from two threads at once. Each instance of a module, or each native
+//   process, runs one call at a time. Instances share nothing.
 // Re-entry: while sf_host_progress or sf_host_result runs, only sf_result_data and sf_result_length may be
-//   called, and those only for the result that sf_host_result was given.
-// Alignment: arrays and structs that are passed in start at a multiple of their elements' size, as those of
-//   sf_alloc do, which start at multiples of 8; so do all that come out. Arrays of no elements may be at any
-//   address, but null means "none" where that is said.
-// Ownership: what is passed in stays the caller's, is only read, and is not kept beyond the call. A result
-//   is the caller's until sf_result_free, and so are its arrays, which stay where they are. Views of a
-//   WebAssembly memory are void after each call, since it may have grown.
-// Traps: an instance whose call has trapped is in an unknown state, and all that it held is lost.
+//   called, and only for the result that sf_host_result was given.
+// Alignment: arrays and structs that are passed in start at a multiple of their elements' size. Memory from
+//   sf_alloc starts at a multiple of 8. Everything that comes out is aligned in the same way. An array
+//   without elements may have any address, but null means "none" where a comment says so.
+// Ownership: what is passed in stays the caller's; it is only read, and not kept after the call. A result and
+//   its arrays are the caller's until sf_result_free, and stay at their addresses. Views of a WebAssembly
+//   memory are void after each call, since the memory may have grown.
+// Traps: if a call traps, its instance is in an unknown state, and all that it held is lost.
 #ifndef SOAPFILM_H
 #define SOAPFILM_H
 #include <stddef.h>
@@ -81,20 +81,20 @@ enum SfStateArray { SF_STATE_ARRAYS(SF_ARRAY) SfStateArrayCount };
 /// Arrays handed back by one call; owned by the caller until sf_result_free.
 typedef struct SfResult SfResult;
 
-/// Imported from the host as `env.sf_host_progress`; native programs define it themselves.
-/// Called about every millisecond; returns nonzero to go on, 0 to stop the call under way.
+/// Imported from the host as `env.sf_host_progress`; native programs define it themselves. Called about every
+/// millisecond of work. Returns nonzero to go on, 0 to stop the call under way.
 int32_t sf_host_progress(double fraction, double bestCost, double lowerBound);
 
-/// Imported as `env.sf_host_result`: arrays of a result that the call under way has so far, which are
-/// the core's and good until this returns.
+/// Imported from the host as `env.sf_host_result`. Called with each better result of the call under way. The
+/// result and its arrays are the core's, and valid until this returns.
 void sf_host_result(const SfResult* result);
 
-/// Memory inside the instance, for arrays passed in. Null when it cannot be had.
+/// Memory inside the instance, for arrays to pass in. Null if there is not enough.
 SF_API(sf_alloc) void* sf_alloc(size_t bytes);
 SF_API(sf_free) void sf_free(void* pointer);
 
-/// The address of a result's array, and its length, counted in numbers: null and 0 if it is empty or there
-/// is none. The functions below say whose names `array` is from.
+/// The address of a result's array, and its length in numbers: null and 0 if the array is empty or does not
+/// exist. `array` is a value of the enum for the table that each function below names.
 SF_API(sf_result_data) const void* sf_result_data(const SfResult* result, uint32_t array);
 SF_API(sf_result_length) size_t sf_result_length(const SfResult* result, uint32_t array);
 /// Frees a result and its arrays; null is allowed.
@@ -104,7 +104,7 @@ SF_API(sf_result_free) void sf_result_free(SfResult* result);
 ///   positions        [3 * starts[loopCount]] xyz
 ///   starts           [loopCount + 1], from 0, increasing
 ///   boundaryNormals  [3 * n] or null: unit or not, NaN triple for no face
-///   triangles        [3 * triangleCount] candidates for the choice Given, else null
+///   triangles        [3 * triangleCount] candidates, for the space Given; else null
 ///   triangleWeights  [triangleCount] or null
 ///   start            [3 * startCount] triangles of an earlier answer to begin from, or null
 ///   where            out: the place at fault
@@ -117,13 +117,13 @@ SfStatus sf_span_loops(const double* positions, const uint32_t* starts, uint32_t
                        SfResult** result);
 
 /// Triangulates polygons with holes in the plane (Ronfard, Rossignac 1994; Kumar).
-///   positions      [dimension * n] vertices; in space, polygon by polygon near a plane
+///   positions      [dimension * n] vertices; in space, those of each polygon lie near a plane
 ///   ringStarts     [ringCount + 1] in vertices, from 0, increasing
-///   polygonStarts  [polygonCount + 1] in rings, from 0, increasing; the first ring of each polygon is
-///                  its outer one
+///   polygonStarts  [polygonCount + 1] in rings, from 0, never falling; the first ring of each polygon is
+///                  its outer one, and a polygon without rings is empty
 ///   points         [dimension * pointCount] isolated vertices inside the only polygon, numbered from
 ///                  n on; or null
-///   where          out: the place at fault, for faults of the call as a whole
+///   where          out: the place at fault, if the call as a whole is
 ///   result         out: SF_POLYGON_ARRAYS; null unless the status is Ok. An invalid polygon has a fault
 ///                  and no triangles.
 SF_API(sf_triangulate_polygons)
@@ -133,9 +133,9 @@ SfStatus sf_triangulate_polygons(const double* positions, const uint32_t* ringSt
                                  const SfPolygonSettings* settings, SfPlace* where,
                                  SfResult** result);
 
-/// Begins a session on one polygon of the plane, whose rings may not touch, and whose vertices are then
-/// inserted, deleted and moved: only the triangles around are made anew (Kumar, sec. 5).
-///   positions, ringStarts, points   as of sf_triangulate_polygons, in the plane
+/// Begins a session on one polygon of the plane, whose rings may not touch. Its vertices can then be
+/// inserted, deleted and moved; an edit makes only the triangles around it anew (Kumar, sec. 5).
+///   positions, ringStarts, points   as for sf_triangulate_polygons, in the plane
 ///   maxBytes  memory limit for the session and each of its calls
 ///   where     out: the place at fault
 ///   result    out: SF_OPENED_ARRAYS; null if refused
@@ -144,25 +144,25 @@ SfStatus sf_session_open(const double* positions, const uint32_t* ringStarts, ui
                          const double* points, uint32_t pointCount, double maxBytes, SfPlace* where,
                          SfResult** result);
 
-/// An edit of a session; one that is refused leaves the polygon as it was, though perhaps with other
+/// Edits the polygon of a session. A refused edit leaves the polygon as it was, but may leave other
 /// triangles.
-///   action  of SF_EDIT_ACTION_CHOICES: inserts a vertex after `vertex` of a ring, inserts an isolated one,
-///           deletes `vertex`, or moves it
-///   x, y    the place, for all but deletions
-///   where   out: nothing
-///   result  out: SF_EDIT_ARRAYS, also for an edit that is refused, as its `status` then says; null if there
-///           is no such session or action
+///   action  one of SF_EDIT_ACTION_CHOICES: insert a vertex into a ring after `vertex`, insert an isolated
+///           one, delete `vertex`, or move it
+///   x, y    the place of the vertex, for all but deletions
+///   where   out: no place
+///   result  out: SF_EDIT_ARRAYS. A refused edit has them too: their `status` says why. Null if there is no
+///           such session or action
 SF_API(sf_session_edit)
 SfStatus sf_session_edit(uint32_t session, uint32_t action, uint32_t vertex, double x, double y,
                          SfPlace* where, SfResult** result);
 
 /// What a session holds.
-///   where   out: nothing
-///   result  out: SF_STATE_ARRAYS
+///   where   out: no place
+///   result  out: SF_STATE_ARRAYS; null unless the status is Ok
 SF_API(sf_session_read)
 SfStatus sf_session_read(uint32_t session, SfPlace* where, SfResult** result);
 
-/// Ends a session, if there is one of that number, which may then be given again. Returns Ok.
+/// Ends the session of that number, if there is one. A later session may get the number. Returns Ok.
 SF_API(sf_session_close) SfStatus sf_session_close(uint32_t session);
 
 #ifdef __cplusplus

@@ -1,43 +1,45 @@
-// The numbers and names that cross the C ABI, each written once: the core's side is made from these tables
-// by the preprocessor (soapfilm.h), the runtime's by wasm/scripts/border.mjs (wasm/ts/border.ts).
+// The numbers and names that cross the C ABI, each written once. The preprocessor makes the core's side from
+// these tables (soapfilm.h), and wasm/scripts/border.mjs makes the runtime's (wasm/ts/border.ts).
 //
 // A table is a macro that expands X for each of its entries, in order:
-//   SF_STATUSES     X(name, value, what it says)
-//   ..._CHOICES     X(name, value, what the TypeScript API calls it)
+//   SF_STATUSES     X(name, value, meaning)
+//   ..._CHOICES     X(name, value, its name in TypeScript)
 //   ..._SETTINGS    X(type, name, meaning): a struct that goes in
-//   ..._RECORD      X(type, name, meaning): a struct that comes out, of one type throughout
-//   ..._ARRAYS      X(type, name, meaning): the arrays of a result; a struct's fields lie one after the other
+//   ..._RECORD      X(type, name, meaning): a struct that comes out, all fields of one type
+//   ..._ARRAYS      X(type, name, meaning): the arrays of a result; structs as their fields in order
 #ifndef SOAPFILM_TABLES_H
 #define SOAPFILM_TABLES_H
 
-/* What a call ends with. Only the first two come with a result. */
-#define SF_STATUSES(X)                                                                       \
-  X(Ok, 0, "done")                                                                           \
-  X(NotFound, 1, "no triangulation in the candidate space: an answer, not an error")         \
-  X(NoLoops, 2, "zero loops")                                                                \
-  X(BadStarts, 3, "starts do not increase from 0 to n")                                      \
-  X(NotFinite, 4, "a coordinate is NaN or beyond 1e150")                                     \
-  X(TooFewVertices, 5, "a loop of fewer than 3 vertices")                                    \
-  X(RepeatedVertex, 6, "two vertices have the same position")                                \
-  X(LoopsIntersect, 7, "two loop edges cross, touch or overlap")                             \
-  X(BadNormals, 8, "a boundary normal is zero or partly NaN")                                \
-  X(BadWeights, 9, "a weight is negative, not finite, or all are zero")                      \
-  X(BadCandidates, 10, "a candidate index out of range, repeated, or a degenerate triangle") \
-  X(TooLarge, 11, "the predicted size exceeds the memory limit")                             \
-  X(OutOfMemory, 12, "the memory limit was reached at work")                                 \
-  X(Stopped, 13, "sf_host_progress asked to stop")                                           \
-  X(BadOption, 14, "a setting out of its range")                                             \
-  X(SelfIntersecting, 15, "polygons: two edges of one ring cross or overlap")                \
-  X(HoleOutside, 16, "polygons: a hole is not inside the outer ring, or crosses it")         \
-  X(HolesOverlap, 17, "polygons: two holes cross or have an edge in common")                 \
-  X(NestedHole, 18, "polygons: a hole lies inside another")                                  \
-  X(DegeneratePolygon, 19, "polygons: a ring of fewer than 3 distinct points, or with a spike")
+/* How a call ends. Only Ok and NotFound come with a result. */
+#define SF_STATUSES(X)                                                               \
+  X(Ok, 0, "done")                                                                   \
+  X(NotFound, 1, "no triangulation in the candidate space: an answer, not an error") \
+  X(NoLoops, 2, "zero loops")                                                        \
+  X(BadStarts, 3, "starts do not increase from 0 to n")                              \
+  X(NotFinite, 4, "a coordinate is NaN or beyond 1e150")                             \
+  X(TooFewVertices, 5, "a loop has fewer than 3 vertices")                           \
+  X(RepeatedVertex, 6, "two vertices have the same position")                        \
+  X(LoopsIntersect, 7, "two loop edges cross, touch or overlap")                     \
+  X(BadNormals, 8, "a boundary normal is zero, infinite or partly NaN")              \
+  X(BadWeights, 9, "a weight is negative or not finite, or all are zero")            \
+  X(BadCandidates, 10,                                                               \
+    "a candidate has an index out of range, is repeated or degenerate, "             \
+    "or has a weight that is not finite")                                            \
+  X(TooLarge, 11, "the predicted size exceeds the memory limit")                     \
+  X(OutOfMemory, 12, "the work reached the memory limit")                            \
+  X(Stopped, 13, "sf_host_progress asked to stop")                                   \
+  X(BadOption, 14, "a setting is out of its range")                                  \
+  X(SelfIntersecting, 15, "polygons: two edges of one ring cross or overlap")        \
+  X(HoleOutside, 16, "polygons: a hole is not inside the outer ring, or crosses it") \
+  X(HolesOverlap, 17, "polygons: two holes cross or have an edge in common")         \
+  X(NestedHole, 18, "polygons: a hole lies inside another")                          \
+  X(DegeneratePolygon, 19, "polygons: a ring has fewer than 3 distinct points, or a spike")
 
-/* Where in the input a status is about. 0xFFFFFFFF where a field does not apply. */
-#define SF_PLACE_RECORD(X)                                                           \
-  X(uint32_t, loop, "loop or ring of the first culprit")                             \
-  X(uint32_t, vertex, "its vertex, counted in that loop; or the candidate triangle") \
-  X(uint32_t, otherLoop, "loop of the second culprit, for pairs")                    \
+/* The place in the input that a status is about. A field that does not apply is 0xFFFFFFFF. */
+#define SF_PLACE_RECORD(X)                                                          \
+  X(uint32_t, loop, "loop or ring of the first culprit")                            \
+  X(uint32_t, vertex, "its vertex, counted in that loop; or the candidate's index") \
+  X(uint32_t, otherLoop, "loop of the second culprit, for pairs")                   \
   X(uint32_t, otherVertex, "its vertex, counted in that loop")
 
 /* sf_span_loops */
@@ -61,38 +63,38 @@
   X(double, space, "a choice of SF_SPACE_CHOICES")                                    \
   X(double, maxBytes, "memory limit")                                                 \
   X(double, bestSoFar,                                                                \
-    "1 for the best surface so far where the work ends early, each of "               \
-    "which sf_host_result is told of; else 0")
+    "1: work that ends early returns the best so far, and "                           \
+    "sf_host_result gets each better surface; else 0")
 
-#define SF_SPAN_ARRAYS(X)                                                 \
-  X(double, positions, "[3n'] the input's, then the inserted vertices'")  \
-  X(uint32_t, triangles, "[3m]")                                          \
-  X(uint32_t, order, "[m] triangles in the order of splitting")           \
-  X(uint32_t, starts, "[k+1] in loopVertices")                            \
-  X(uint32_t, loopVertices, "[n'] the loops of the result")               \
-  X(SfSpanNumbers, numbers, "[1]")                                        \
-  X(SfInsertedPlace, insertedPlaces, "[i] where each inserted vertex is") \
-  X(double, insertedParameters, "[i] 0 to 1, where along its edge that is")
+#define SF_SPAN_ARRAYS(X)                                                                 \
+  X(double, positions, "[3n'] the input's vertices, then the inserted ones")              \
+  X(uint32_t, triangles, "[3m]")                                                          \
+  X(uint32_t, order, "[m] indices of triangles in the order of splitting")                \
+  X(uint32_t, starts, "[k+1] offsets into loopVertices")                                  \
+  X(uint32_t, loopVertices, "[n'] the vertices along the result's loops")                 \
+  X(SfSpanNumbers, numbers, "[1]")                                                        \
+  X(SfInsertedPlace, insertedPlaces, "[i] the loop edge that each inserted vertex is on") \
+  X(double, insertedParameters, "[i] how far along its edge each is, 0 to 1")
 
-#define SF_SPAN_NUMBERS_RECORD(X)                                             \
-  X(double, found, "1 if there is a surface, else 0")                         \
-  X(double, space, "the choice of SF_SPACE_CHOICES that the answer is from")  \
-  X(double, cost, "the objective's value")                                    \
-  X(double, lowerBound, "proven lower bound on the cost in that space")       \
-  X(double, optimal, "1 if the surface is proven to be the best, else 0")     \
-  X(double, area, "sum over triangles")                                       \
-  X(double, perimeter, "sum over triangles")                                  \
-  X(double, dihedral, "sum of the angles between triangles, in radians")      \
-  X(double, worstDihedral, "the largest of those angles")                     \
-  X(double, own, "sum of the candidates' own weights")                        \
-  X(double, candidates, "candidate triangles")                                \
-  X(double, domains, "domains solved or bounded; segments for a single loop") \
-  X(double, minimalSets, "minimal weak edge sets stored")                     \
-  X(double, peakBytes, "most memory held at once")
+#define SF_SPAN_NUMBERS_RECORD(X)                                               \
+  X(double, found, "1 if there is a surface, else 0")                           \
+  X(double, space, "the choice of SF_SPACE_CHOICES that the answer comes from") \
+  X(double, cost, "the objective's value")                                      \
+  X(double, lowerBound, "proven lower bound on the cost in that space")         \
+  X(double, optimal, "1 if the surface is proven to be the best, else 0")       \
+  X(double, area, "sum over triangles")                                         \
+  X(double, perimeter, "sum over triangles")                                    \
+  X(double, dihedral, "sum of the angles between triangles, in radians")        \
+  X(double, worstDihedral, "the largest of those angles")                       \
+  X(double, own, "sum of the candidates' own weights")                          \
+  X(double, candidates, "candidate triangles")                                  \
+  X(double, domains, "domains solved or bounded; for a single loop, segments")  \
+  X(double, minimalSets, "minimal weak edge sets stored")                       \
+  X(double, peakBytes, "largest amount of memory held at once")
 
 #define SF_INSERTED_PLACE_RECORD(X) \
   X(uint32_t, loop, "input loop")   \
-  X(uint32_t, edge, "of its edges, the one from this vertex of it")
+  X(uint32_t, edge, "the number in that loop of the vertex where the edge begins")
 
 /* sf_triangulate_polygons */
 
@@ -115,17 +117,17 @@
   X(double, trace, "1 for the actions of flooding, else 0") \
   X(double, maxBytes, "memory limit")
 
-#define SF_POLYGON_ARRAYS(X)                                                              \
-  X(uint32_t, triangles, "[3m] counter-clockwise; in space, as the outer ring runs")      \
-  X(uint32_t, triangleStarts, "[p+1] in triangles, where each polygon's begin")           \
-  X(uint32_t, strips, "vertices of strips")                                               \
-  X(uint32_t, stripStarts, "[s+1] in those, where each strip begins")                     \
-  X(uint32_t, polygonStrips, "[p+1] in strips, where each polygon's begin")               \
-  X(double, added, "[dimension * a] points that repair added, numbered after all others") \
-  X(uint32_t, addedOn, "[2a] the edges that each is on, by their first vertices")         \
-  X(SfFloodStep, trace, "[t] actions of flooding")                                        \
-  X(SfPolygonFault, faults, "[f] the invalid polygons, in order")                         \
-  X(double, faultPoints, "[dimension * f] where each fault is, or NaN")
+#define SF_POLYGON_ARRAYS(X)                                                                      \
+  X(uint32_t, triangles, "[3m] counter-clockwise; in space, as the outer ring runs")              \
+  X(uint32_t, triangleStarts, "[p+1] where each polygon's triangles begin, in triangles")         \
+  X(uint32_t, strips, "vertices of strips")                                                       \
+  X(uint32_t, stripStarts, "[s+1] where each strip begins in `strips`")                           \
+  X(uint32_t, polygonStrips, "[p+1] where each polygon's strips begin, in strips")                \
+  X(double, added, "[dimension * a] points that repair added, numbered after all others")         \
+  X(uint32_t, addedOn, "[2a] the two edges that each added point is on, by their first vertices") \
+  X(SfFloodStep, trace, "[t] actions of flooding")                                                \
+  X(SfPolygonFault, faults, "[f] the invalid polygons, in order")                                 \
+  X(double, faultPoints, "[dimension * f] the point of each fault, or NaN")
 
 #define SF_FLOOD_ACTION_CHOICES(X) \
   X(Start, 0, "start")             \
@@ -135,18 +137,18 @@
   X(Spill, 4, "spill")             \
   X(Jump, 5, "jump")
 
-#define SF_FLOOD_STEP_RECORD(X)                                           \
-  X(uint32_t, action, "a choice of SF_FLOOD_ACTION_CHOICES")              \
-  X(uint32_t, left, "the vertex at one end of the active chain after it") \
-  X(uint32_t, right, "the vertex at the other end")                       \
-  X(uint32_t, triangles, "how many triangles there are after it")
+#define SF_FLOOD_STEP_RECORD(X)                                                   \
+  X(uint32_t, action, "a choice of SF_FLOOD_ACTION_CHOICES")                      \
+  X(uint32_t, left, "the vertex at one end of the active chain after the action") \
+  X(uint32_t, right, "the vertex at its other end")                               \
+  X(uint32_t, triangles, "how many triangles there are after the action")
 
-#define SF_POLYGON_FAULT_RECORD(X)                                         \
-  X(uint32_t, polygon, "its number")                                       \
-  X(uint32_t, status, "of SF_STATUSES")                                    \
-  X(uint32_t, loop, "a place as in SfPlace, rings counted in the polygon") \
-  X(uint32_t, vertex, "")                                                  \
-  X(uint32_t, otherLoop, "")                                               \
+#define SF_POLYGON_FAULT_RECORD(X)                                                        \
+  X(uint32_t, polygon, "the polygon's number")                                            \
+  X(uint32_t, status, "one of SF_STATUSES")                                               \
+  X(uint32_t, loop, "this and the rest as in SfPlace, with rings counted in the polygon") \
+  X(uint32_t, vertex, "")                                                                 \
+  X(uint32_t, otherLoop, "")                                                              \
   X(uint32_t, otherVertex, "")
 
 /* sf_session_*: sessions on polygons */
@@ -161,27 +163,28 @@
   X(Delete, 2, "delete")                  \
   X(Move, 3, "move")
 
-/* All in one array: an edit takes less than to hand over many. */
+/* All in one array: handing over several would take longer than the edit. */
 #define SF_EDIT_ARRAYS(X) \
   X(uint32_t, edit,       \
-    "SfEditFacts; then [c] which triangles are new, rising; then [3c] their corners")
+    "SfEditFacts; then [c] numbers of new triangles, increasing; then [3c] their corners")
 
-#define SF_EDIT_FACTS_RECORD(X)                                                            \
-  X(uint32_t, vertex, "the edited vertex's number")                                        \
-  X(uint32_t, triangleCount, "how many triangles there are now")                           \
-  X(uint32_t, status, "of the edit itself")                                                \
-  X(uint32_t, loop, "a place as in SfPlace, but vertices by their numbers in the session") \
-  X(uint32_t, atVertex, "its vertex")                                                      \
-  X(uint32_t, otherLoop, "")                                                               \
+#define SF_EDIT_FACTS_RECORD(X)                                                          \
+  X(uint32_t, vertex, "the edited vertex's number")                                      \
+  X(uint32_t, triangleCount, "how many triangles there are now")                         \
+  X(uint32_t, status, "the status of the edit itself, one of SF_STATUSES")               \
+  X(uint32_t, loop, "this and the rest as in SfPlace, but with vertices of the session") \
+  X(uint32_t, atVertex, "the first vertex at fault")                                     \
+  X(uint32_t, otherLoop, "")                                                             \
   X(uint32_t, otherVertex, "")
 
-#define SF_STATE_ARRAYS(X)                                                         \
-  X(double, positions, "[2n] by number; those of numbers out of use mean nothing") \
-  X(uint32_t, next,                                                                \
-    "[n] the next vertex of each one's ring, or 0xFFFFFFFF for isolated ones, "    \
-    "or the vertex itself for numbers out of use")                                 \
-  X(uint32_t, strips, "vertices of strips")                                        \
-  X(uint32_t, stripStarts, "[s+1] in those, where each strip begins")              \
-  X(uint32_t, certified, "[1] 1 if all of it has passed the certificate, from scratch, else 0")
+#define SF_STATE_ARRAYS(X)                                                     \
+  X(double, positions, "[2n] by vertex; those of unused numbers mean nothing") \
+  X(uint32_t, next,                                                            \
+    "[n] the next vertex of the ring; 0xFFFFFFFF for an isolated vertex, "     \
+    "its own number if that is unused")                                        \
+  X(uint32_t, strips, "vertices of strips")                                    \
+  X(uint32_t, stripStarts, "[s+1] where each strip begins in `strips`")        \
+  X(uint32_t, certified,                                                       \
+    "[1] 1 if the whole polygon passes the certificate, tested from scratch; else 0")
 
 #endif

@@ -18,25 +18,25 @@ export const Status = {
   BadStarts: 3,
   /** a coordinate is NaN or beyond 1e150 */
   NotFinite: 4,
-  /** a loop of fewer than 3 vertices */
+  /** a loop has fewer than 3 vertices */
   TooFewVertices: 5,
   /** two vertices have the same position */
   RepeatedVertex: 6,
   /** two loop edges cross, touch or overlap */
   LoopsIntersect: 7,
-  /** a boundary normal is zero or partly NaN */
+  /** a boundary normal is zero, infinite or partly NaN */
   BadNormals: 8,
-  /** a weight is negative, not finite, or all are zero */
+  /** a weight is negative or not finite, or all are zero */
   BadWeights: 9,
-  /** a candidate index out of range, repeated, or a degenerate triangle */
+  /** a candidate has an index out of range, is repeated or degenerate, or has a weight that is not finite */
   BadCandidates: 10,
   /** the predicted size exceeds the memory limit */
   TooLarge: 11,
-  /** the memory limit was reached at work */
+  /** the work reached the memory limit */
   OutOfMemory: 12,
   /** sf_host_progress asked to stop */
   Stopped: 13,
-  /** a setting out of its range */
+  /** a setting is out of its range */
   BadOption: 14,
   /** polygons: two edges of one ring cross or overlap */
   SelfIntersecting: 15,
@@ -46,14 +46,14 @@ export const Status = {
   HolesOverlap: 17,
   /** polygons: a hole lies inside another */
   NestedHole: 18,
-  /** polygons: a ring of fewer than 3 distinct points, or with a spike */
+  /** polygons: a ring has fewer than 3 distinct points, or a spike */
   DegeneratePolygon: 19,
 } as const;
 
 export interface Place {
   /** loop or ring of the first culprit */
   readonly loop: number;
-  /** its vertex, counted in that loop; or the candidate triangle */
+  /** its vertex, counted in that loop; or the candidate's index */
   readonly vertex: number;
   /** loop of the second culprit, for pairs */
   readonly otherLoop: number;
@@ -89,7 +89,7 @@ export interface SpanSettings {
   readonly space: number;
   /** memory limit */
   readonly maxBytes: number;
-  /** 1 for the best surface so far where the work ends early, each of which sf_host_result is told of; else 0 */
+  /** 1: work that ends early returns the best so far, and sf_host_result gets each better surface; else 0 */
   readonly bestSoFar: number;
 }
 
@@ -105,21 +105,21 @@ export const packSpanSettings = (settings: SpanSettings): Float64Array =>
   );
 
 export interface SpanArrays {
-  /** [3n'] the input's, then the inserted vertices' */
+  /** [3n'] the input's vertices, then the inserted ones */
   readonly positions: Float64Array;
   /** [3m] */
   readonly triangles: Uint32Array;
-  /** [m] triangles in the order of splitting */
+  /** [m] indices of triangles in the order of splitting */
   readonly order: Uint32Array;
-  /** [k+1] in loopVertices */
+  /** [k+1] offsets into loopVertices */
   readonly starts: Uint32Array;
-  /** [n'] the loops of the result */
+  /** [n'] the vertices along the result's loops */
   readonly loopVertices: Uint32Array;
   /** SpanNumbers: [1] */
   readonly numbers: Float64Array;
-  /** InsertedPlace: [i] where each inserted vertex is */
+  /** InsertedPlace: [i] the loop edge that each inserted vertex is on */
   readonly insertedPlaces: Uint32Array;
-  /** [i] 0 to 1, where along its edge that is */
+  /** [i] how far along its edge each is, 0 to 1 */
   readonly insertedParameters: Float64Array;
 }
 
@@ -137,7 +137,7 @@ export const readSpanArrays = (array: ArrayReader): SpanArrays => ({
 export interface SpanNumbers {
   /** 1 if there is a surface, else 0 */
   readonly found: number;
-  /** the choice of SF_SPACE_CHOICES that the answer is from */
+  /** the choice of SF_SPACE_CHOICES that the answer comes from */
   readonly space: number;
   /** the objective's value */
   readonly cost: number;
@@ -157,11 +157,11 @@ export interface SpanNumbers {
   readonly own: number;
   /** candidate triangles */
   readonly candidates: number;
-  /** domains solved or bounded; segments for a single loop */
+  /** domains solved or bounded; for a single loop, segments */
   readonly domains: number;
   /** minimal weak edge sets stored */
   readonly minimalSets: number;
-  /** most memory held at once */
+  /** largest amount of memory held at once */
   readonly peakBytes: number;
 }
 
@@ -189,7 +189,7 @@ export const readSpanNumbers = (from: ArrayLike<number>, at = 0): SpanNumbers =>
 export interface InsertedPlace {
   /** input loop */
   readonly loop: number;
-  /** of its edges, the one from this vertex of it */
+  /** the number in that loop of the vertex where the edge begins */
   readonly edge: number;
 }
 
@@ -240,23 +240,23 @@ export const packPolygonSettings = (settings: PolygonSettings): Float64Array =>
 export interface PolygonArrays {
   /** [3m] counter-clockwise; in space, as the outer ring runs */
   readonly triangles: Uint32Array;
-  /** [p+1] in triangles, where each polygon's begin */
+  /** [p+1] where each polygon's triangles begin, in triangles */
   readonly triangleStarts: Uint32Array;
   /** vertices of strips */
   readonly strips: Uint32Array;
-  /** [s+1] in those, where each strip begins */
+  /** [s+1] where each strip begins in `strips` */
   readonly stripStarts: Uint32Array;
-  /** [p+1] in strips, where each polygon's begin */
+  /** [p+1] where each polygon's strips begin, in strips */
   readonly polygonStrips: Uint32Array;
   /** [dimension * a] points that repair added, numbered after all others */
   readonly added: Float64Array;
-  /** [2a] the edges that each is on, by their first vertices */
+  /** [2a] the two edges that each added point is on, by their first vertices */
   readonly addedOn: Uint32Array;
   /** FloodStep: [t] actions of flooding */
   readonly trace: Uint32Array;
   /** PolygonFault: [f] the invalid polygons, in order */
   readonly faults: Uint32Array;
-  /** [dimension * f] where each fault is, or NaN */
+  /** [dimension * f] the point of each fault, or NaN */
   readonly faultPoints: Float64Array;
 }
 
@@ -278,11 +278,11 @@ export const kFloodActionChoices = ['start', 'raise', 'fill', 'bridge', 'spill',
 export interface FloodStep {
   /** a choice of SF_FLOOD_ACTION_CHOICES */
   readonly action: number;
-  /** the vertex at one end of the active chain after it */
+  /** the vertex at one end of the active chain after the action */
   readonly left: number;
-  /** the vertex at the other end */
+  /** the vertex at its other end */
   readonly right: number;
-  /** how many triangles there are after it */
+  /** how many triangles there are after the action */
   readonly triangles: number;
 }
 
@@ -298,11 +298,11 @@ export const readFloodStep = (from: ArrayLike<number>, at = 0): FloodStep => ({
 });
 
 export interface PolygonFault {
-  /** its number */
+  /** the polygon's number */
   readonly polygon: number;
-  /** of SF_STATUSES */
+  /** one of SF_STATUSES */
   readonly status: number;
-  /** a place as in SfPlace, rings counted in the polygon */
+  /** this and the rest as in SfPlace, with rings counted in the polygon */
   readonly loop: number;
   readonly vertex: number;
   readonly otherLoop: number;
@@ -337,7 +337,7 @@ export const readOpenedArrays = (array: ArrayReader): OpenedArrays => ({
 export const kEditActionChoices = ['insert', 'insert-isolated', 'delete', 'move'] as const;
 
 export interface EditArrays {
-  /** SfEditFacts; then [c] which triangles are new, rising; then [3c] their corners */
+  /** SfEditFacts; then [c] numbers of new triangles, increasing; then [3c] their corners */
   readonly edit: Uint32Array;
 }
 
@@ -350,11 +350,11 @@ export interface EditFacts {
   readonly vertex: number;
   /** how many triangles there are now */
   readonly triangleCount: number;
-  /** of the edit itself */
+  /** the status of the edit itself, one of SF_STATUSES */
   readonly status: number;
-  /** a place as in SfPlace, but vertices by their numbers in the session */
+  /** this and the rest as in SfPlace, but with vertices of the session */
   readonly loop: number;
-  /** its vertex */
+  /** the first vertex at fault */
   readonly atVertex: number;
   readonly otherLoop: number;
   readonly otherVertex: number;
@@ -375,15 +375,15 @@ export const readEditFacts = (from: ArrayLike<number>, at = 0): EditFacts => ({
 });
 
 export interface StateArrays {
-  /** [2n] by number; those of numbers out of use mean nothing */
+  /** [2n] by vertex; those of unused numbers mean nothing */
   readonly positions: Float64Array;
-  /** [n] the next vertex of each one's ring, or 0xFFFFFFFF for isolated ones, or the vertex itself for numbers out of use */
+  /** [n] the next vertex of the ring; 0xFFFFFFFF for an isolated vertex, its own number if that is unused */
   readonly next: Uint32Array;
   /** vertices of strips */
   readonly strips: Uint32Array;
-  /** [s+1] in those, where each strip begins */
+  /** [s+1] where each strip begins in `strips` */
   readonly stripStarts: Uint32Array;
-  /** [1] 1 if all of it has passed the certificate, from scratch, else 0 */
+  /** [1] 1 if the whole polygon passes the certificate, tested from scratch; else 0 */
   readonly certified: Uint32Array;
 }
 

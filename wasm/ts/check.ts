@@ -1,8 +1,8 @@
-// What callers hand over, whatever it is: values are read once, by code that trusts none of them, and what
-// does not fit becomes an error that names the argument. No code of the caller's runs afterwards.
+// Checks of what callers pass in, whatever it is. Each value is read once, by code that trusts none.
+// A value that does not fit becomes an error that names the argument. No code of the caller's runs later.
 import { SoapfilmError, type ErrorCode } from './errors.js';
 
-/** What a value is, in words for a message; runs no code of the caller's. */
+/** A value in words, for a message. Runs no code of the caller's. */
 export function show(value: unknown): string {
   switch (typeof value) {
     case 'string':
@@ -21,7 +21,7 @@ export function show(value: unknown): string {
   }
 }
 
-/** `Array.isArray`, which throws for proxies that are revoked. */
+/** As `Array.isArray`, but false for revoked proxies, for which that throws. */
 function isArray(value: unknown): boolean {
   try {
     return Array.isArray(value);
@@ -30,15 +30,15 @@ function isArray(value: unknown): boolean {
   }
 }
 
-/** The error for an argument or option, by its name, that is not what it must be. */
+/** The error for the argument or option `name`, which must be `what`, but is `value`. */
 export function mustBe(code: ErrorCode, name: string, what: string, value: unknown): SoapfilmError {
   return new SoapfilmError(code, `\`${name}\` must be ${what}, not ${show(value)}`);
 }
 
 /**
  * The result of `read`, which reads from the argument `name`.
- * @throws SoapfilmError what `read` throws, as it is or as the `cause` of one with `code`: getters and
- *   proxies may throw anything
+ * @throws SoapfilmError the one that `read` throws. If it throws anything else, as getters and proxies may,
+ *   one with `code`, and with that as its `cause`
  */
 export function guarded<T>(code: ErrorCode, name: string, read: () => T): T {
   try {
@@ -49,7 +49,7 @@ export function guarded<T>(code: ErrorCode, name: string, read: () => T): T {
   }
 }
 
-/** The names of all fields of a type; the compiler sees to it that none is missing. */
+/** The names of all fields of a type; the compiler checks that none is missing. */
 export type Names<T> = Readonly<Record<keyof T, true>>;
 
 /** Fields as they were given, of any kind. */
@@ -57,7 +57,7 @@ export type Given<T> = Readonly<Partial<Record<keyof T, unknown>>>;
 
 /**
  * The named fields of an argument, each read once; those that are undefined are left out.
- * @param code of the error where the argument is no object, or a field cannot be read
+ * @param code of the error if the argument is not an object, or a field cannot be read
  */
 export function fieldsOf<T extends object>(
   value: unknown,
@@ -77,7 +77,7 @@ export function fieldsOf<T extends object>(
   return fields as Given<T>;
 }
 
-/** As `fieldsOf`, of what may have no other fields: a misspelt option would go unnoticed. */
+/** As `fieldsOf`, but other fields are an error: a misspelt option would go unnoticed. */
 export function optionsOf<T extends object>(
   value: unknown,
   names: Names<T>,
@@ -93,7 +93,7 @@ export function optionsOf<T extends object>(
   throw new SoapfilmError('bad-option', `\`${path}${unknown}\` is not an option here; there are ${list}`);
 }
 
-/** Which of the choices an option is; the first if it is left out. */
+/** The choice that an option names; the first one if it is left out. */
 export function choiceOf<T>(name: string, choices: readonly T[], value: unknown, more = ''): T {
   if (value === undefined) return choices[0];
   const index = choices.indexOf(value as T);
@@ -104,7 +104,7 @@ export function choiceOf<T>(name: string, choices: readonly T[], value: unknown,
 
 export const flagOf = (name: string, value: unknown): boolean => choiceOf(name, [false, true], value);
 
-/** An option that is a function, if it is given. */
+/** An option that must be a function, if it is given. */
 export function functionOf(name: string, value: unknown): unknown {
   if (value === undefined || typeof value === 'function') return value;
   throw mustBe('bad-option', name, 'a function', value);
@@ -116,7 +116,7 @@ export const isIndex = (value: unknown): value is number =>
 
 const arrayPrototype = Object.getPrototypeOf(Uint8Array.prototype) as object;
 
-/** What typed arrays say of themselves, past all that may hide it; undefined for other values. */
+/** Reads a property of typed arrays that no field of the caller's can hide; undefined for other values. */
 function getterOf(property: PropertyKey): (value: unknown) => unknown {
   const found = Object.getOwnPropertyDescriptor(arrayPrototype, property);
   return (value) => found?.get?.call(value) as unknown;
@@ -129,8 +129,8 @@ const [kindIn, bufferOf, offsetOf, lengthOf] = [
 ] as [(value: unknown) => string | undefined, (view: object) => ArrayBuffer, (view: object) => number, (view: object) => number];
 
 /**
- * 'Float64Array' and the like; undefined for what is no typed array. Unlike `instanceof` it is right about
- * arrays of other windows and about objects that only inherit from arrays.
+ * The kind of a typed array, such as 'Float64Array'; undefined for other values. Unlike `instanceof`, this is
+ * right about arrays of other windows, and about objects that only inherit from arrays.
  */
 export const kindOf = (value: unknown): string | undefined => kindIn(value);
 
@@ -138,9 +138,9 @@ const constructors = { Float32Array, Float64Array, Uint32Array, Uint8Array };
 type Kind = keyof typeof constructors;
 
 /**
- * A typed array of one of the kinds, as a view of the same memory that has no fields or methods of the
- * caller's; undefined for other values.
- * @throws TypeError where its buffer is detached, or has shrunk to end before it
+ * A view of the same memory as a typed array of one of the kinds; undefined for other values. The view has no
+ * fields or methods of the caller's.
+ * @throws TypeError if the array's buffer is detached, or has shrunk so that it ends before the array
  */
 export function viewOf<K extends Kind>(
   kinds: readonly K[],
@@ -149,7 +149,7 @@ export function viewOf<K extends Kind>(
   const kind = kindOf(value) as K;
   if (!kinds.includes(kind)) return undefined;
   const view = value as object;
-  // Of what lies outside of its buffer too, which otherwise is only empty.
+  // Throws also for an array outside of its buffer, which otherwise would only look empty.
   if (lengthOf(view) === 0) Uint8Array.prototype.keys.call(view);
   return new constructors[kind](bufferOf(view), offsetOf(view), lengthOf(view)) as InstanceType<
     (typeof constructors)[K]
@@ -158,7 +158,8 @@ export function viewOf<K extends Kind>(
 
 /**
  * A typed array that is an argument or option: a view of the caller's memory, or with `own` a copy.
- * @param what it must be, for the message, and whether its length fits
+ * @param what what it must hold, for the message
+ * @param fits whether a length is right
  */
 export function arrayOf<K extends 'Float64Array' | 'Uint32Array'>(
   kind: K,

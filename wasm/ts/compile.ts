@@ -8,7 +8,7 @@ import type { LoadOptions, Part, WasmSource } from './types.js';
 /** Compiled parts, for other threads. */
 export type Modules = Partial<Record<Part, WebAssembly.Module>>;
 
-/** The file of each part beside this script, and the copy of it; bundlers look for just these words. */
+/** The file of each part beside this script, and its copy. Bundlers look for exactly these expressions. */
 const kFiles: Readonly<
   Record<Part, { file: () => URL; copy: () => Promise<{ readonly default: string }> }>
 > = {
@@ -25,7 +25,7 @@ const kFiles: Readonly<
 const compiling = new Map<Part, Promise<WebAssembly.Module>>();
 
 /**
- * The compiled parts, each compiled once, by this or by `load`.
+ * The compiled parts. Each is compiled once, by whichever of this and `load` is first.
  * @throws SoapfilmError `load-failed`, `bad-option`
  */
 export async function compile(options: LoadOptions = {}): Promise<Modules> {
@@ -34,7 +34,7 @@ export async function compile(options: LoadOptions = {}): Promise<Modules> {
 }
 
 /**
- * The parts wanted, each with where it is said to be.
+ * The parts that the options name, each with its source if they give one.
  * @throws SoapfilmError `bad-option`
  */
 export function partsOf({ parts, wasm, checks }: Given<LoadOptions>): [Part, WasmSource | undefined][] {
@@ -43,7 +43,7 @@ export function partsOf({ parts, wasm, checks }: Given<LoadOptions>): [Part, Was
   const named = guarded('bad-option', 'parts', () => {
     const list: readonly unknown[] = parts === undefined ? kParts : Array.isArray(parts) ? parts : [];
     const known: Part[] = [];
-    // By index: iterators pass over what is missing.
+    // By index: array methods skip missing entries.
     for (let i = 0; i < list.length && isPart(list[i]); i++) known.push(list[i] as Part);
     if (known.length > 0 && known.length === list.length) return known;
     const names = kParts.map((part) => `'${part}'`).join(', ');
@@ -67,8 +67,8 @@ function isSource(name: string, value: unknown): value is WasmSource {
 }
 
 /**
- * What is under way or done for a part, else what `begin` begins; a failure is forgotten, and with it
- * the part as compiled, which may be none of soapfilm.
+ * The promise that is known for a part, else a new one from `begin`. A failure is forgotten, so that the next
+ * call tries again. The compiled part is forgotten with it: it may not be one of soapfilm.
  */
 export function once<T>(known: Map<Part, Promise<T>>, part: Part, begin: () => Promise<T>): Promise<T> {
   const found =
@@ -94,7 +94,7 @@ async function compileFrom(part: Part, source: WasmSource | undefined): Promise<
   return compileBytes(isPlace ? await readFrom(source) : source);
 }
 
-/** The file beside this script, else (a bundler lost it, or nothing is served) its copy. */
+/** The file beside this script; or its copy, if a bundler lost the file or no server has it. */
 async function compileDefault(part: Part): Promise<WebAssembly.Module> {
   const { file, copy } = kFiles[part];
   try {

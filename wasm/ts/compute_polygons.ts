@@ -1,5 +1,5 @@
-// Triangulations once arguments are checked: the core's settings from them, triangles from the core's arrays. All
-// that a thread needs of it.
+// Triangulations, once the arguments are checked: makes the core's settings from them, and results from the
+// core's arrays. Threads need only this half.
 import {
   kFloodActionChoices,
   kFloodStepLength,
@@ -16,8 +16,8 @@ import { callCore, kDefaultMemoryBytes, shared } from './runtime.js';
 import type { FloodStep, PolygonsOptions, PolygonsTriangulation, PolygonTriangulation } from './types.js';
 
 /**
- * Triangulates what has been checked; the error of the first invalid polygon is thrown unless these are
- * skipped.
+ * Triangulates checked polygons. Throws the error of the first invalid one, unless these are skipped.
+ * @param several whether errors say which polygon they are about
  */
 export function computePolygons(
   polygons: FlatPolygons,
@@ -80,7 +80,7 @@ export function computePolygons(
   };
 }
 
-/** What is about a polygon by itself. */
+/** The part of a result that a single polygon has. */
 export function triangulationOfOne(all: PolygonsTriangulation): PolygonTriangulation {
   const { triangles, strips, stripStarts, added, addedOn, trace } = all;
   return { triangles, strips, stripStarts, added, addedOn, trace };

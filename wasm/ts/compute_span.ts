@@ -1,5 +1,5 @@
-// spanLoops once its arguments are checked: the core's settings from them, a Span from the core's arrays. All that
-// a thread needs of it.
+// spanLoops, once its arguments are checked: makes the core's settings from them, and a Span from the core's
+// arrays. Threads need only this half.
 import {
   kInsertedPlaceLength,
   kObjectiveChoices,
@@ -13,7 +13,7 @@ import {
 import { callCore, kDefaultMemoryBytes, shared } from './runtime.js';
 import type { LoopSet, NoSpan, Span, SpanOptions, SpaceUsed } from './types.js';
 
-/** `spanLoops` of what has been checked, but for the last call of `onProgress`. */
+/** `spanLoops` for checked arguments, without the last call of `onProgress`. */
 export function computeSpan(input: LoopSet, options: SpanOptions): Span | NoSpan {
   const { onProgress, onBest, maxSeconds, bestSoFar, boundaryNormals, candidates, startFrom: start } = options;
   const list = typeof candidates === 'object' ? candidates : undefined;
@@ -90,7 +90,7 @@ function noSpanReason(space: SpaceUsed): string {
 }
 
 function settings({ weights, objective = 'sum', candidates = 'auto', bestSoFar, maxMemoryBytes }: SpanOptions) {
-  // NaN: the core sets the default from the size of the loops.
+  // NaN: the core sets the default, which depends on the size of the loops.
   const { area = 0, perimeter = 0, dihedral = 0 } = weights ?? { area: NaN, dihedral: 1 };
   return packSpanSettings({
     areaWeight: area,

@@ -31,18 +31,18 @@ export type ErrorCode =
 export interface ErrorPlace {
   /** Index of the loop. */
   readonly loop?: number;
-  /** Index of the vertex within that loop, or of the candidate triangle for `bad-candidates`. */
+  /** Index of the vertex within that loop; for `bad-candidates`, of the candidate triangle. */
   readonly vertex?: number;
-  /** The second loop and vertex, for errors about a pair, as `loops-intersect`. */
+  /** The second loop and vertex, for errors about a pair, such as `loops-intersect`. */
   readonly otherLoop?: number;
   readonly otherVertex?: number;
-  /** Index of the polygon among many; `loop` is then one of its rings, the outer one 0. */
+  /** Index of the polygon among many; `loop` is then the index of a ring in it, 0 for the outer one. */
   readonly polygon?: number;
-  /** Where a fault of a polygon lies, as where two edges cross; rounded. */
+  /** Where a fault of a polygon lies, such as the place where two edges cross; rounded. */
   readonly point?: readonly number[];
   /** Index of a face of a mesh. */
   readonly face?: number;
-  /** Line of a text file, the first is 1. */
+  /** Line of a text file, counted from 1. */
   readonly line?: number;
 }
 

@@ -1,4 +1,4 @@
-// What the two sides of a triangulation, checking and computing, have in common.
+// What checking and computing share for polygons.
 import { kMethodChoices, kRepairChoices } from './border.js';
 
 /** Polygons as the core takes them. */
@@ -10,7 +10,7 @@ export interface FlatPolygons {
   readonly points?: Float64Array | undefined;
 }
 
-/** The choices of each option, the default first; the core counts them in this order. */
+/** The choices of each option, the default first, in the order of the core's numbers. */
 export const kChoices = {
   method: kMethodChoices,
   repair: kRepairChoices,

@@ -1,5 +1,5 @@
-// Points and offsets in the one form that the core takes: flat arrays. What people have is in many: arrays of
-// triples, typed arrays, objects with x, y and z.
+// Points and offsets as flat arrays, the only form that the core takes. Callers have them in many forms:
+// arrays of triples, typed arrays, objects with x, y and z.
 import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
 import { fieldsOf, guarded, isIndex, kindOf, mustBe, show, viewOf } from './check.js';
 import type { LoopsLike, LoopSet } from './types.js';
@@ -17,7 +17,7 @@ export interface FlatLists {
   readonly size: 2 | 3;
 }
 
-/** The place of a list, or of a point in it, in words and for errors. */
+/** The place of a list, or of a point in it: in words, and as fields of an error. */
 export type PlaceOf = (list: number, vertex?: number) => { readonly text: string; readonly place: ErrorPlace };
 
 const floatsOf = (value: unknown): Float64Array | Float32Array | undefined =>
@@ -27,9 +27,10 @@ const floatsOf = (value: unknown): Float64Array | Float32Array | undefined =>
  * Copies lists of points into flat arrays. A list is an array of points, each an array of numbers or an
  * object with the fields x, y and z, or it is one Float64Array or Float32Array of all coordinates.
  *
- * @param size coordinates of a point; undefined: 2 or 3, as the first point has
- * @param exact whether a point may not have more
- * @throws SoapfilmError `code` with the place of the first list or point that is none; `too-large`
+ * @param size how many coordinates a point has; undefined: 2 or 3, as the first point has
+ * @param exact whether a point with more of them is an error
+ * @throws SoapfilmError `code`, with the place of the first value that is not a list or a point;
+ *   `too-large`, `out-of-memory`
  */
 export function flattenLists(
   lists: readonly unknown[],
@@ -75,12 +76,12 @@ export function flattenLists(
   }
 }
 
-/** How many points a list holds; NaN where it is none. */
+/** How many points a list holds; NaN if it is not a list. */
 function countOf(list: unknown, size: number): number {
   return Array.isArray(list) ? list.length : (floatsOf(list)?.length ?? NaN) / size;
 }
 
-/** The size of the first point that there is. */
+/** How many coordinates the first point has: 3, or else 2. */
 function sizeOf(lists: readonly unknown[]): 2 | 3 {
   const list = lists.find((list) => !Array.isArray(list) || list.length > 0);
   const point: unknown = Array.isArray(list) ? list[0] : undefined;
@@ -103,8 +104,8 @@ function isFloats(value: unknown): boolean {
 }
 
 /**
- * Writes the points of a list one after the other into `out`, from `begin` on; returns the index of the first
- * that is none, else `count`. What getters of the points throw passes.
+ * Writes the points of a list one after the other into `out`, from index `begin` on. Returns the index of the
+ * first value that is not a point, or `count` if all are points. Throws what getters of the points throw.
  */
 export function putPoints(
   list: unknown,
@@ -116,7 +117,7 @@ export function putPoints(
 ): number {
   if (!Array.isArray(list)) {
     const floats = floatsOf(list);
-    // What said before how long it is may say otherwise now.
+    // Its length may have changed since the points were counted.
     if (floats?.length !== size * count) return 0;
     out.set(floats, begin);
     return count;
@@ -170,7 +171,7 @@ export function flatPositions(
   });
 }
 
-/** A copy of a list of whole numbers, which is not believed to be as long as it says. */
+/** A copy of a list of whole numbers. Allocates as it reads, since the list's `length` may be false. */
 export function indicesOf(list: ArrayLike<unknown>, name: string): Uint32Array {
   const indices: number[] = [];
   for (let i = 0; i < list.length; i++) {
@@ -182,9 +183,8 @@ export function indicesOf(list: ArrayLike<unknown>, name: string): Uint32Array {
 }
 
 /**
- * Offsets, as an array of our own.
- * @param code of the error for what is no list of numbers; `bad-starts` (`.loop`) is that for wrong ones
- * @param last what they must end with
+ * A copy of offsets, which must begin with 0, never fall, and end with `last`.
+ * @throws SoapfilmError `code` for what is not a list; `bad-starts` (`.loop`) for wrong offsets
  */
 export function flatStarts(value: unknown, last: number, code: ErrorCode, name: string): Uint32Array {
   const bad = (text: string, place?: ErrorPlace): SoapfilmError =>
@@ -204,11 +204,12 @@ export function flatStarts(value: unknown, last: number, code: ErrorCode, name: 
 }
 
 /**
- * Loops in any form, as flat arrays. What `starts` and `positions` say of each other is checked; the
- * coordinates are not.
+ * Loops in any form, as flat arrays. Checks that `starts` and `positions` fit each other, but does not check
+ * the coordinates.
  *
- * @param own whether the arrays may not be views of the caller's
- * @throws SoapfilmError `bad-loops` (`.loop`, `.vertex`), `bad-starts` (`.loop`), `too-large`
+ * @param own whether the arrays must be copies, not views of the caller's
+ * @throws SoapfilmError `bad-loops` (`.loop`, `.vertex`), `bad-starts` (`.loop`); `too-large`,
+ *   `out-of-memory`
  */
 export function flattenLoops(loops: LoopsLike, own = false): LoopSet {
   const code = 'bad-loops';

@@ -16,28 +16,28 @@ import type { LoopSet, LoopsLike, Span } from './types.js';
 
 /**
  * - `curve`: the number of loops, the number of all vertices, then for each loop its number of
- *   vertices and one `x y z` a line; `#` begins a comment.
+ *   vertices, and a line `x y z` for each vertex; `#` begins a comment.
  * - `json`: `{ "name": …, "loops": [[[x, y, z], …], …] }`, or the array of loops alone.
- * - `obj`: Wavefront, `v` and closed polylines `l`; the rest is passed over.
+ * - `obj`: Wavefront, `v` and closed polylines `l`; all else is ignored.
  */
 export type LoopFormat = 'curve' | 'json' | 'obj';
 
-/** Loops as read from a file, with the name found in it, if any. */
+/** Loops read from a file, with their name if the file has one. */
 export interface LoopFile extends LoopSet {
   readonly name?: string;
 }
 
 /**
- * The loops in a file, to the last bit of each coordinate.
+ * Reads the loops in a file; coordinates are exact to the last bit.
  *
- * In OBJ, polylines are joined where they share an index, whatever their directions; a loop begins
- * with, and runs along, the first of its segments in the file.
+ * In OBJ, polylines are joined where they share an index, whatever their directions. A loop begins
+ * with its first segment in the file, and runs in the direction of that segment.
  *
  * @param data text, or bytes in UTF-8
- * @param options `format`: default, recognised by the content
- * @throws SoapfilmError `bad-option`; `bad-file`, with `.line` and where it applies `.loop` and `.vertex`, for
- *   what is not in the format, a coordinate that is not finite, an open polyline, a loop of fewer
- *   than 3 vertices, and a file without loops
+ * @param options `format`; by default it is recognised from the content
+ * @throws SoapfilmError `bad-option`; `bad-file`, with `.line`, and with `.loop` and `.vertex` where they
+ *   apply, for text that is not in the format, a coordinate that is not finite, an open polyline, a loop of
+ *   fewer than 3 vertices, and a file without loops
  */
 export function parseLoops(
   data: string | ArrayBuffer | Uint8Array,
@@ -55,15 +55,15 @@ const kFormats: readonly LoopFormat[] = ['curve', 'json', 'obj'];
 function textOf(data: unknown): string {
   if (typeof data === 'string') return data;
   const isBuffer = Object.prototype.toString.call(data) === '[object ArrayBuffer]';
-  // Of shared memory a copy, which decoders insist on.
+  // A copy of views, since decoders refuse shared memory.
   const bytes = isBuffer ? new Uint8Array(data as ArrayBuffer) : viewOf(['Uint8Array'], data)?.slice();
   if (!bytes) throw mustBe('bad-file', 'data', 'text, an ArrayBuffer or a Uint8Array', data);
   return new TextDecoder().decode(bytes);
 }
 
 /**
- * A file that `parseLoops` reads back exactly. A `name` that comes with the loops is kept, except
- * in `.curve`, which has no place for it.
+ * Writes loops as a file that `parseLoops` reads back exactly. A `name` that comes with the loops is kept,
+ * except in `.curve`, which has no place for it.
  *
  * @throws SoapfilmError `bad-loops`, `bad-starts`, `not-finite` (`.loop`, `.vertex`), `bad-option`
  */
@@ -116,15 +116,15 @@ function textOption(code: ErrorCode, option: string, value: unknown): string | u
 }
 
 /**
- * A triangulated surface, such as a `Span`, as Wavefront OBJ. Its boundary loops, if given, are
+ * Writes a triangulated surface, such as a `Span`, as Wavefront OBJ. Its boundary loops, if given, are
  * written as closed polylines `l`, so that `parseLoops` reads them back.
  *
  * @param surface `positions` [3n] xyz; `triangles` [3m] vertex indices; `loopVertices` vertex
  *   indices of the boundary loops, `starts` [k + 1] offsets into them
- * @param options `name` of the object; `precision`: significant digits, 1 to 17, default as many
- *   as it takes to read back the same numbers
+ * @param options `name` of the object; `precision`: significant digits, 1 to 17, by default as many as
+ *   are needed to read back the same numbers
  * @throws SoapfilmError `not-finite` (`.vertex`), `bad-starts`; `bad-option` for arrays of the wrong kind,
- *   indices of no vertex, and options out of their range
+ *   indices that no vertex has, and options out of their range
  */
 export function formatObj(
   surface: Surface,
@@ -190,7 +190,7 @@ function surfaceOf(surface: unknown): Surface {
 const objHead = (name: string | undefined): string[] =>
   name === undefined ? [] : [`o ${name.replace(/\s+/g, ' ').trim()}`];
 
-/** The coordinates of a vertex in the fewest digits that read back the same. */
+/** The coordinates of a vertex in the fewest digits that read back the same, or in `precision` digits. */
 function point(
   positions: Float64Array,
   index: number,
@@ -330,7 +330,7 @@ function parseJson(text: string): LoopFile {
   };
 }
 
-/** A piece of a polyline between two vertices, and where it was written. */
+/** A piece of a polyline between two vertices, and its line in the file. */
 interface Segment {
   readonly from: number;
   readonly to: number;

@@ -12,11 +12,11 @@ const kThin = /^(Multi)?(Point|LineString)$/;
 
 /**
  * Triangulates all polygons in GeoJSON: Polygon, MultiPolygon, GeometryCollection, Feature or
- * FeatureCollection. Coordinates are taken as they are, in the plane; points and lines are passed over.
+ * FeatureCollection. Coordinates are taken as they are, in the plane. Points and lines are ignored.
  *
- * @returns the triangles, polygon by polygon and feature by feature, with the `positions` that they
- *   are indices into
- * @throws SoapfilmError `bad-polygon` for what is no GeoJSON; else as `triangulatePolygons`
+ * @returns the triangles, polygon by polygon and feature by feature, as indices into the `positions` that
+ *   come with them
+ * @throws SoapfilmError `bad-polygon` for input that is not GeoJSON; else those of `triangulatePolygons`
  */
 export function triangulateGeoJSON(
   geojson: GeoJSONLike,
@@ -27,7 +27,7 @@ export function triangulateGeoJSON(
   return { ...computePolygons(flat, checked, true), positions: flat.positions, featureStarts };
 }
 
-/** More geometries than any text holds; objects that are listed again and again may come to that. */
+/** More geometries than any text holds. Objects that list the same part again and again may exceed it. */
 const kMostGeometries = 2 ** 24;
 
 /**
@@ -46,8 +46,8 @@ function collect(geojson: GeoJSONLike): { polygons: unknown[]; featureStarts: nu
   const featureStarts = [0];
   let count = 0;
   for (let f = 0; f < roots.length; f++) {
-    // The next is at the end: collections may be nested to any depth. Those that are open are around the
-    // next one, and end where they are found again on the list.
+    // A stack, the next one last, since collections may be nested to any depth. The open ones are those
+    // around the next one: each is also on the stack, below its parts, and is closed when it comes up again.
     const todo: unknown[] = [roots[f]];
     const open = new Set<unknown>();
     while (todo.length > 0) {
@@ -56,7 +56,7 @@ function collect(geojson: GeoJSONLike): { polygons: unknown[]; featureStarts: nu
       if (++count > kMostGeometries) throw tooMany();
       const { type, geometry, geometries, coordinates } = readObject(next);
       if (type === 'Feature' || type === 'GeometryCollection') {
-        // Null where a feature has no place.
+        // Null if the feature has no place.
         const parts =
           type === 'Feature' ? [geometry].filter((part) => part !== null) : listOf(geometries, 'geometries` of `geojson');
         open.add(next);
@@ -85,7 +85,7 @@ function collect(geojson: GeoJSONLike): { polygons: unknown[]; featureStarts: nu
 const tooMany = (): SoapfilmError =>
   new SoapfilmError('too-large', `\`geojson\` holds more than ${kMostGeometries} geometries`);
 
-/** The fields of an object that have a meaning; none of what is no object. */
+/** The fields of an object that are used here; none if the value is not an object. */
 function readObject(value: unknown): Partial<Record<'type' | 'features' | 'geometry' | 'geometries' | 'coordinates', unknown>> {
   return (value ?? {});
 }

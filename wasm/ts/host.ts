@@ -1,6 +1,6 @@
-// How files are read: by `fetch`, unless `node_host.ts` has put Node's way in its place.
+// How files are read: by `fetch`, which `node_host.ts` replaces in Node.
 
-/** Reads the file at a URL, or at a path where the surroundings have paths. */
+/** Reads the file at a URL, or at a path if the host has paths. */
 export type Reader = (source: URL | string) => Promise<Response | BufferSource>;
 
 let reader: Reader = (source) => fetch(source);

@@ -1,4 +1,4 @@
-// Lines in JSON: engines differ in whether and how they say where a text is wrong.
+// Finds lines in JSON. Engines differ in whether and how they say where a text is wrong.
 
 const kSpace = /[ \t\r\n]*/y;
 const kToken =
@@ -7,8 +7,8 @@ const kToken =
 type Awaited = 'value' | 'key' | 'colon' | 'comma';
 
 /**
- * The line of the value at `path`, of the first place that is not JSON if that comes earlier, or
- * undefined if neither exists. Linear time, no recursion.
+ * The line of the value at `path`; or of the first place that is not JSON, if that comes earlier;
+ * undefined if there is neither. Linear time, no recursion.
  * @param path keys and indices from the root
  */
 export function jsonLine(
@@ -67,7 +67,7 @@ export function jsonLine(
   }
 }
 
-/** The string literal that begins at an offset, if it is one; a search, since long ones defeat RegExp. */
+/** The string literal that begins at an offset, if there is one. No RegExp: long literals defeat it. */
 function stringAt(text: string, offset: number): string | undefined {
   if (text[offset] !== '"') return undefined;
   let end = offset;

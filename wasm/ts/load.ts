@@ -8,9 +8,9 @@ import type { LoadOptions, Part, WasmSource } from './types.js';
 const loading = new Map<Part, Promise<void>>();
 
 /**
- * Loads the core, or the parts of it that are named; the other functions need theirs. A part is loaded
- * once: later calls wait for the same load, wherever they say it is; after a failure the next call tries
- * again. `checks` apply from then on, whatever has been loaded before.
+ * Loads the core, or only the named parts of it. Each of the other functions needs its part. A part is
+ * loaded once: later calls wait for the same load, even if they name another source. After a failure the
+ * next call tries again. `checks` takes effect at once, for parts loaded before as well.
  *
  * @throws SoapfilmError `load-failed`, with the reason as its `cause`; `bad-option`
  */

@@ -1,4 +1,4 @@
-// spanLoops: its arguments checked and made flat.
+// spanLoops: checks its arguments, makes them flat, and computes the span.
 import { optionsOf } from './check.js';
 import { computeSpan } from './compute_span.js';
 import { flattenLoops } from './flatten.js';
@@ -8,14 +8,14 @@ import { spanOptionsOf } from './span_input.js';
 import type { LoopsLike, NoSpan, Span, SpanOptions } from './types.js';
 
 /**
- * Spans one or more closed 3D loops with a triangulated surface of least cost: of all surfaces made
- * of candidate triangles that are manifold, connected, orientable, and have the topology of a
- * sphere with k holes (Zou, Ju, Carr 2013). Synchronous; the worker of `soapfilm/worker` offers
- * the same without blocking.
+ * Spans one or more closed 3D loops with a triangulated surface of least cost. The surface is made of
+ * candidate triangles; it is manifold, connected and orientable, and has the topology of a sphere with
+ * k holes (Zou, Ju, Carr 2013). Synchronous; the worker of `soapfilm/worker` offers the same without
+ * blocking.
  *
- * @param loops flat arrays, or one list of points a loop; their directions matter only to
- *   `boundaryNormals`. They are read when the call begins, and left as they are
- * @returns the surface, m = n' + 2k - 4 triangles; `found: false` where the candidate space holds
+ * @param loops flat arrays, or one list of points for each loop. Their directions matter only with
+ *   `boundaryNormals`. They are read when the call begins, and are not changed
+ * @returns the surface, of m = n' + 2k - 4 triangles; or `found: false` if the candidate space holds
  *   none, which is an ordinary outcome for Delaunay candidates of contorted loops
  * @throws SoapfilmError `not-loaded`; `no-loops`, `bad-loops`, `bad-starts`, `not-finite`,
  *   `too-few-vertices`, `repeated-vertex`, `loops-intersect` with the loop and vertex at fault;

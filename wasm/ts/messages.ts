@@ -1,8 +1,8 @@
-// What the statuses of the core mean: their codes, and messages in words that name the culprit.
+// Errors for the core's statuses: the code of each, and a message that names the place at fault.
 import { Status, type Place } from './border.js';
 import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
 
-/** Names of the statuses that are errors, and no one's wish. */
+/** Names of the statuses that are errors. `Stopped` is not: a caller asked for that. */
 type Failure = Exclude<keyof typeof Status, 'Ok' | 'NotFound' | 'Stopped'>;
 
 const kNone = 0xffffffff;
@@ -94,8 +94,8 @@ const byStatus = new Map<number, (typeof table)[Failure]>(
 
 /**
  * The error for a failed call.
- * @param noun what loops are called
- * @param more what else is known of the place
+ * @param noun the word for a loop in the message
+ * @param more further fields of the place
  */
 export function statusError(
   status: number,
@@ -116,7 +116,7 @@ export function statusError(
   return new SoapfilmError(entry[0], text[0].toUpperCase() + text.slice(1), place);
 }
 
-/** The error for a polygon: its loops are rings. */
+/** The error for a polygon, whose loops are called rings. */
 export function ringError(status: number, where: Place, more?: ErrorPlace): SoapfilmError {
   return statusError(status, where, 'ring', more);
 }

@@ -9,7 +9,7 @@ setReader((source) => {
   return url && url.protocol !== 'file:' ? fetch(url) : readFile(url ?? source);
 });
 
-/** Gives a script that is written for browsers the port that it expects. */
+/** Gives a script for browsers the port that it expects. */
 const kPrelude = "globalThis.self = require('node:worker_threads').parentPort;\n";
 
 setThreadStarter((listener, script) => {

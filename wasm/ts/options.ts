@@ -1,4 +1,4 @@
-// What the options of all functions have in common.
+// The names of all options, and those checks that functions share: limits, and signals.
 import { guarded, mustBe, type Given, type Names } from './check.js';
 import type {
   CandidateList,
@@ -51,7 +51,7 @@ export interface Limits {
 }
 
 /**
- * The limits that every function has; those left out are left out.
+ * The limits among the options, checked, without those that were left out.
  * @throws SoapfilmError `bad-option`
  */
 export function limitsOf({ maxMemoryBytes, maxSeconds }: Given<Limits>): Limits {
@@ -66,7 +66,7 @@ export function limitsOf({ maxMemoryBytes, maxSeconds }: Given<Limits>): Limits 
 /** The signal of an asynchronous call, checked. */
 export function signalOf(signal: unknown): AbortSignal | undefined {
   if (signal === undefined) return undefined;
-  // Heirs of the prototype that are none throw here.
+  // Objects that only inherit from the prototype throw here.
   const isSignal = (): boolean => signal instanceof AbortSignal && typeof signal.aborted === 'boolean';
   if (guarded('bad-option', 'signal', isSignal)) return signal as AbortSignal;
   throw mustBe('bad-option', 'signal', 'an AbortSignal', signal);

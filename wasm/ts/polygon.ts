@@ -1,4 +1,4 @@
-// triangulatePolygon and triangulatePolygons: polygons in one of their forms, checked and made flat.
+// triangulatePolygon and triangulatePolygons: check the polygons, make them flat, and triangulate them.
 import { optionsOf } from './check.js';
 import { computePolygons, triangulationOfOne } from './compute_polygons.js';
 import { kPolygonOptions, kPolygonsOptions } from './options.js';
@@ -16,10 +16,10 @@ import type {
  * Triangulates a polygon with holes, in the plane or in space: the triangles lie inside it and cover
  * it exactly, with all its vertices and no others. O(n log n).
  *
- * @throws SoapfilmError `not-loaded`; `bad-polygon`, `bad-starts`, `bad-option`; `not-finite`,
- *   `degenerate`, `self-intersecting`, `holes-overlap`, `hole-outside`, `nested-hole` with the rings,
- *   vertices and the point at fault, unless `repair` is set; `too-large`, `out-of-memory`,
- *   `time-limit`; `crashed`. The next call works after any of them.
+ * @throws SoapfilmError `not-loaded`; `bad-polygon`, `bad-starts`, `bad-option`; with the rings, the vertices
+ *   and the point at fault `not-finite` and, unless `repair` is set, `degenerate`, `self-intersecting`,
+ *   `holes-overlap`, `hole-outside`, `nested-hole`; `too-large`, `out-of-memory`, `time-limit`; `crashed`.
+ *   The next call works after any of them.
  */
 export function triangulatePolygon(
   polygon: PolygonLike,
@@ -34,8 +34,8 @@ export function triangulatePolygon(
  * Triangulates many polygons in one call of the core, which is far quicker for small ones.
  *
  * @param polygons flat arrays, or an array of polygons, each an array of rings
- * @throws SoapfilmError as `triangulatePolygon`, for the first invalid polygon, with its number as
- *   `polygon`; nothing for invalid polygons with `skipInvalid`
+ * @throws SoapfilmError those of `triangulatePolygon`. The error of the first invalid polygon has its number
+ *   as `.polygon`; with `skipInvalid`, invalid polygons do not throw
  */
 export function triangulatePolygons(
   polygons: PolygonsLike,

@@ -37,7 +37,7 @@ export function polygonOptionsOf(options: Given<PolygonsOptions>, polygons: Flat
   return checked;
 }
 
-/** Options that do not go together, or not with the input. */
+/** Throws for options that do not go together, or not with the input. */
 function checkTogether({ polygonStarts, points }: FlatPolygons, options: PolygonsOptions): void {
   const { trace = false, method, repair = 'none' } = options;
   const bad = (text: string): SoapfilmError => new SoapfilmError('bad-option', text);
@@ -53,8 +53,9 @@ const kForms =
 
 /**
  * The polygon as flat arrays.
- * @param own whether the arrays may not be views of the caller's
- * @throws SoapfilmError `bad-polygon` (`.loop`, `.vertex`), `bad-starts`, `bad-option`, `too-large`
+ * @param own whether the arrays must be copies, not views of the caller's
+ * @throws SoapfilmError `bad-polygon` (`.loop`, `.vertex`), `bad-starts`, `bad-option`, `too-large`,
+ *   `out-of-memory`
  */
 export function flattenPolygon(polygon: PolygonLike, own = false): FlatPolygons {
   const name = 'polygon';
@@ -79,7 +80,7 @@ export function flattenPolygon(polygon: PolygonLike, own = false): FlatPolygons 
   return { positions, ringStarts, polygonStarts: Uint32Array.of(0, ringStarts.length - 1), dim, points };
 }
 
-/** Many polygons as flat arrays; errors as those of `flattenPolygon`, with `.polygon`. */
+/** Many polygons as flat arrays. Throws the errors of `flattenPolygon`, with `.polygon`. */
 export function flattenBatch(polygons: PolygonsLike, own = false): FlatPolygons {
   const name = 'polygons';
   if (isArray(polygons, name)) return flattenPolygons(polygons as readonly unknown[], name);
@@ -107,10 +108,10 @@ function isObject(value: unknown, name: string, forms: string): unknown {
 }
 
 /**
- * Flat arrays of polygons that are arrays of rings.
- * @param name of the argument; 'polygon' is one alone, and errors name no other
- * @param size how many coordinates to take of each point; default: as many as the first has, and no
- *   point may have more
+ * Polygons given as arrays of rings, as flat arrays.
+ * @param name of the argument; for 'polygon', a single one, errors have no `.polygon`
+ * @param size how many coordinates to take of each point; by default as many as the first point has,
+ *   and then no point may have more
  */
 export function flattenPolygons(
   polygons: readonly unknown[],
@@ -157,7 +158,7 @@ export function flattenPolygons(
   };
 }
 
-/** Coordinates as earcut takes them, from any list of numbers, in an array of our own. */
+/** A copy of earcut's coordinates, which may be any list of numbers. */
 function coordinatesOf(list: unknown, dim: number, name: string): Float64Array {
   return guarded(kCode, name, () => {
     const numbers = numbersOf(list, name);
@@ -170,7 +171,7 @@ function coordinatesOf(list: unknown, dim: number, name: string): Float64Array {
   });
 }
 
-/** Where rings begin, from where holes do. */
+/** The offsets of rings, from the first vertices of holes. */
 function holesOf(list: unknown, n: number, name: string): Uint32Array {
   if (list === undefined || list === null) return Uint32Array.of(0, n);
   const holes = guarded(kCode, name, () => indicesOf(numbersOf(list, name), name));
@@ -181,7 +182,7 @@ function numbersOf(list: unknown, name: string): ArrayLike<unknown> {
   if (Array.isArray(list)) return list as readonly unknown[];
   const kind = kindOf(list);
   if (kind !== undefined && !kind.startsWith('Big')) {
-    // Throws where the buffer is detached; all else of the array may be what it likes.
+    // Throws if the buffer is detached. Our callers check everything else that they read.
     Uint8Array.prototype.keys.call(list as Uint8Array);
     return list as ArrayLike<unknown>;
   }

@@ -29,31 +29,35 @@ const kDelete = kEditActionChoices.indexOf('delete');
 const kMove = kEditActionChoices.indexOf('move');
 
 /**
- * A triangulated polygon in the plane whose vertices can be inserted, deleted and moved; the work is in
- * proportion to the triangles around the edit. Holds memory of the core until it is disposed of.
+ * A triangulated polygon in the plane whose vertices can be inserted, deleted and moved. The work of an edit
+ * is in proportion to the triangles around it.
  *
- * Points are `[x, y]`, typed arrays of two numbers, or objects with `x` and `y`. Numbers of no vertex, and points
- * that are none, are `bad-option`.
- * Rings may not touch, and no two vertices have one place: codes are those of `triangulatePolygon`,
- * and `repeated-vertex`. An edit that would make the polygon invalid throws and leaves the polygon as it
- * was, if perhaps with other triangles, which the next edit's `changed` then names as well. `vertex`
- * and `otherVertex` of its error are numbers of vertices as everywhere in a session. After `crashed`, which
- * only a defect of the core can bring about, the session is lost, and so are those that share its memory:
- * sessions do so only where more than 32 are open. The error names them all by their `id`, and so does
- * that of their next use.
+ * Points are `[x, y]`, typed arrays of two numbers, or objects with `x` and `y`. Anything else as a point,
+ * and a number that no vertex has, is a `bad-option`.
  *
- * A session that is not referred to any more is freed in time; `dispose` does so at once.
+ * Rings may not touch, and no two vertices may have the same place. Errors have the codes of
+ * `triangulatePolygon`, and `repeated-vertex`. An edit that would make the polygon invalid throws, and
+ * leaves the polygon as it was. It may leave other triangles, though; the next edit's `changed` then names
+ * these too. In errors of edits, `vertex` and `otherVertex` are the session's numbers of vertices.
+ *
+ * Only a defect of the core can cause `crashed`. The session is then lost, and so are all sessions that share
+ * its memory. Sessions share memory only if more than 32 are open, or if the engine has no room for more
+ * instances of the core. The error names the lost sessions by their `id`. Using one of them later throws
+ * `crashed` again.
+ *
+ * A session holds memory of the core. `dispose` frees it at once; a session that is no longer referred to is
+ * freed in time.
  */
 export class PolygonSession {
   readonly #session: Session;
   #triangles: Uint32Array;
   #count: number;
-  /** Triangles that edits have changed which were refused: the next one's to tell. */
+  /** Triangles that refused edits have changed. The next edit that succeeds names them. */
   readonly #untold = new Set<number>();
 
   /**
-   * Vertices are numbered as in the input, isolated `points` after them; the directions of its rings
-   * are those of `PolygonState.next`.
+   * Vertices are numbered as in the input, and isolated `points` after them. Rings run in the directions
+   * of `PolygonState.next`.
    */
   constructor(polygon: PolygonLike, options: Pick<PolygonOptions, 'maxMemoryBytes'> = {}) {
     const limits = limitsOf(optionsOf(options, { maxMemoryBytes: true }));
@@ -81,7 +85,7 @@ export class PolygonSession {
     this.#count = triangles.length;
   }
 
-  /** By which errors name the session: 1 for the first in this thread. */
+  /** The number by which errors name the session: 1 for the first in this thread. */
   get id(): number {
     return this.#session.id;
   }
@@ -102,7 +106,7 @@ export class PolygonSession {
     return this.#edit(kInsertIsolated, '', 0, point);
   }
 
-  /** Deletes a vertex; its number may be given to one inserted later. A ring keeps 3 vertices. */
+  /** Deletes a vertex. A vertex inserted later may get its number. A ring must keep 3 vertices. */
   delete(vertex: number): PolygonEdit {
     return this.#edit(kDelete, 'vertex', vertex, kOrigin);
   }
@@ -135,7 +139,7 @@ export class PolygonSession {
     return this.#session.call(name, args, read, kWatch);
   }
 
-  /** @param role what the vertex is called */
+  /** @param role the argument's name for the vertex */
   #edit(action: number, role: string, vertex: number, point: Point2Like): PolygonEdit {
     this.#alive();
     if (!isIndex(vertex)) throw mustBe('bad-option', role, 'the number of a vertex', vertex);
@@ -148,7 +152,7 @@ export class PolygonSession {
     const facts = readEditFacts(edit);
     const { triangleCount, status } = facts;
     const count = (edit.length - kEditFactsLength) / 4;
-    // Views of one buffer, which is theirs alone: copies would take a tenth of the time of an edit.
+    // Views of one buffer that nothing else uses: copies would take a tenth of the time of an edit.
     let changed = edit.subarray(kEditFactsLength, kEditFactsLength + count);
     let triangles = edit.subarray(kEditFactsLength + count);
     this.#count = 3 * triangleCount;
@@ -189,7 +193,7 @@ function coordinatesOf(point: unknown): Float64Array {
   throw mustBe('bad-option', 'point', '[x, y] or { x, y } of numbers', point);
 }
 
-/** The error for an edit that was refused, in words of its arguments where they are at fault. */
+/** The error for a refused edit; it names the argument, if one is at fault. */
 function refusal(error: SoapfilmError, role: string, vertex: number): SoapfilmError {
   const { code, loop, vertex: culprit } = error;
   if (code === 'bad-option') {

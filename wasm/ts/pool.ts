@@ -1,4 +1,4 @@
-// Threads, the calls that wait for them, and what becomes of both when a call ends early.
+// Threads, the calls that wait for them, and what happens to both when a call ends early.
 import { SoapfilmError } from './errors.js';
 import type { Modules } from './compile.js';
 import { buffersOf, copyOf, unpackError, type Calls, type Reply, type Request } from './protocol.js';
@@ -6,20 +6,20 @@ import { report } from './report.js';
 import { startThread, type Thread } from './thread.js';
 import type { ProgressListener } from './types.js';
 
-/** Who hears of a call on its way, and what may end it early. */
+/** The listeners of a call, and what may end it early. */
 export interface CallWatch {
   readonly signal?: AbortSignal | undefined;
   readonly onProgress?: ProgressListener | undefined;
-  /** Called with each result on the way. */
+  /** Called with each better result while the call runs. */
   readonly onBest?: ((value: unknown) => void) | undefined;
-  /** Whether the signal ends the call with the last result on the way, if there is one. */
+  /** Whether a call that the signal ends returns the latest better result, if there is one. */
   readonly keepsBest?: boolean | undefined;
 }
 
 interface Job {
   readonly request: Request & { readonly kind: 'call' };
   readonly watch: CallWatch;
-  /** The last result on the way. */
+  /** The latest better result. */
   best?: unknown;
   /** What a listener has thrown. */
   thrown?: { readonly reason: unknown };
@@ -49,10 +49,10 @@ export class Pool {
   }
 
   /**
-   * Runs one function in a thread. The buffers of its input are handed over: they must be the pool's own.
-   * @throws SoapfilmError of the function, `cancelled`, `disposed`, `crashed`, or `load-failed` when
-   *   no thread can be started; what the listeners throw, which also ends the work, or is reported if
-   *   that is done by then
+   * Runs one function in a thread. The buffers of its input are transferred, so nobody else may use them.
+   * @throws SoapfilmError those of the function; `cancelled`, `disposed`, `crashed`; `load-failed` if no
+   *   thread can be started. Also what a listener throws: it ends the work, or is reported if the work is
+   *   done by then
    */
   call<N extends keyof Calls>(
     name: N,
@@ -139,22 +139,22 @@ export class Pool {
     this.#members.delete(member);
   }
 
-  /** Ends a call that waits or runs. A running one takes its thread with it, and a new one starts. */
+  /** Ends a call that waits or runs. A running one takes its thread with it, and a new thread starts. */
   #drop(job: Job, reason: unknown): void {
     const index = this.#queue.indexOf(job);
     if (index >= 0) this.#queue.splice(index, 1);
     for (const member of [...this.#members]) {
       if (member.job !== job) continue;
       this.#end(member);
-      // Already now, so that the next call need not wait for it.
+      // Starts now, so that the next call need not wait for it.
       this.start().catch(() => undefined);
     }
     job.reject(reason);
   }
 
   /**
-   * Starts one more thread and gives it work. If that fails, and there is no other thread to take
-   * them, the calls that wait fail likewise.
+   * Starts one more thread and gives it work. If that fails and there is no other thread, the waiting
+   * calls fail too.
    * @throws SoapfilmError `load-failed`, `disposed`
    */
   async start(): Promise<void> {
@@ -183,7 +183,7 @@ export class Pool {
     this.#release(member);
   }
 
-  /** Launches a thread from its file, or where that fails from the copy within the library. */
+  /** Launches a thread from its file, or if that fails, from the copy within the library. */
   async #launchSomehow(): Promise<Member> {
     if (this.#script !== undefined) return this.#launch(this.#script);
     try {
@@ -200,7 +200,7 @@ export class Pool {
     }
   }
 
-  /** A thread that has said that it is ready. */
+  /** Starts a thread and waits until it is ready. */
   #launch(script?: string): Promise<Member> {
     return new Promise((resolve, reject) => {
       const thread = startThread(
@@ -229,7 +229,7 @@ export class Pool {
     });
   }
 
-  /** Tells a listener. What it throws ends the call, unless its result is on its way here already. */
+  /** Calls a listener. If it throws, the call ends, unless its result is already on the way here. */
   #tell(job: Job, listener: () => void): void {
     if (job.thrown) return;
     try {

@@ -1,4 +1,4 @@
-// What the pool and its threads say to each other.
+// The messages between the pool and its threads.
 import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
 import type { Modules } from './compile.js';
 import type { FlatPolygons } from './flat_polygons.js';
@@ -15,7 +15,7 @@ export interface Calls {
   readonly triangulatePolygons: (polygons: FlatPolygons, options: PolygonsOptions) => PolygonsTriangulation;
 }
 
-/** To a thread: first of all the core's parts, then one call at a time. */
+/** To a thread: first the core's parts, then one call at a time. */
 export type Request =
   | { readonly kind: 'start'; readonly modules: Modules }
   | {
@@ -24,7 +24,7 @@ export type Request =
       readonly input: Parameters<Calls[keyof Calls]>;
       /** Whether anyone listens to the progress. */
       readonly progress: boolean;
-      /** Whether results on the way are wanted: whoever ends the call takes the last one. */
+      /** Whether to send each better result: a call that is ended early returns the latest. */
       readonly results: boolean;
     };
 
@@ -57,13 +57,13 @@ export function unpackError({ code, message, place }: PlainError): SoapfilmError
   return new SoapfilmError(code, message, place);
 }
 
-/** A result whose list of `errors`, if it has one, is plain data. */
+/** The result, with its list of `errors` as plain data, if it has one. */
 export function packErrors(result: object): object {
   if (!('errors' in result)) return result;
   return { ...result, errors: (result.errors as unknown[]).map(packError) };
 }
 
-/** The result that `packErrors` made plain. */
+/** The result that `packErrors` was given. */
 export function unpackErrors<T extends { readonly errors: readonly unknown[] }>(result: T): T {
   return { ...result, errors: result.errors.map((error) => unpackError(error as PlainError)) };
 }

@@ -1,14 +1,14 @@
-// Errors that come when the call that they are about can no longer throw them.
+// Errors that come too late for their call to throw them.
 import type { NoSpan, ProgressListener, Span } from './types.js';
 
-/** Has the surroundings tell of an error that no caller is left to catch, as they do of their own. */
+/** Reports an error that no caller is left to catch, in the way the host reports uncaught errors. */
 export function report(error: unknown): void {
   const { reportError } = globalThis as { reportError?: (error: unknown) => void };
   if (reportError) reportError(error);
   else console.error(error);
 }
 
-/** Tells a listener that the work is done. What it throws cannot end that any more: it is reported. */
+/** Tells a listener that a surface was found. If it throws, its error is reported: the work is done. */
 export function tellEnd(span: Span | NoSpan, onProgress: ProgressListener | undefined): void {
   if (!span.found) return;
   try {

@@ -1,40 +1,40 @@
-// Instances of the core's parts, which are modules, and the one way to call them. Only this file knows
-// pointers and memory.
+// Instances of the core's parts (each part is a WebAssembly module), and the one way to call them. Only this
+// file knows pointers and memory.
 import { kPlaceLength, readPlace, Status, type ArrayReader, type Place } from './border.js';
 import { notLoaded, SoapfilmError } from './errors.js';
 import { statusError } from './messages.js';
 import { report } from './report.js';
 import type { Part, ProgressListener } from './types.js';
 
-/** An argument of an export: a number as it is; an array, copied in; null, no array. */
+/** An argument of an export. A number is passed as it is, an array is copied in, null means no array. */
 export type CoreArgument = number | Float64Array | Uint32Array | Int32Array | Uint8Array | null;
 
-/** What may end a call early, and who is told how it goes. */
+/** The listeners of a call, what may end it early, and the form of its result. */
 export interface Watch<T> {
-  /** Called every 30 ms or so. What it throws ends the work and is thrown on by `callCore`. */
+  /** Called about every 30 ms. What it throws ends the work, and `callCore` throws it too. */
   readonly onProgress?: ProgressListener | undefined;
   /** Wall-clock seconds after which the call ends with `time-limit`. */
   readonly maxSeconds?: number | undefined;
-  /** Called with each result that the work has on its way; what it throws is thrown on likewise. */
+  /** Called with each better result while the call runs. If it throws, the same happens. */
   readonly onResult?: ((arrays: T) => void) | undefined;
-  /** Whether the time limit asks the core to end, and then takes what that hands back. */
+  /** Whether a call that the time limit ends returns what the core has found until then. */
   readonly keepsResult?: boolean | undefined;
-  /** Whether the arrays handed back are views of the core's memory, good until its next call. */
+  /** Whether the arrays returned are views of the core's memory, valid until its next call. */
   readonly borrows?: boolean | undefined;
   /** The error for a status; default `statusError`. */
   readonly explain?: ((status: number, where: Place) => SoapfilmError) | undefined;
 }
 
 /**
- * An instance of a part, made when it is first called, in which calls leave something for later ones.
- * It stays until it traps: then all that was in it is lost.
+ * The place of one instance of a part. The instance is made at the first call, and keeps what calls leave in
+ * it for later ones. When it traps, all of that is lost.
  */
 export class Home {
   /** @internal */
   core: Core | undefined;
-  /** Whether it has trapped, and is none of `shared`. */
+  /** Whether its instance has trapped. Never set for `shared`, which get a new instance. */
   lost = false;
-  /** @internal The buffers of what was lent out by copies. */
+  /** @internal The buffers of copies that were lent. */
   copies: ArrayBuffer[] = [];
   /** @internal */
   idle?: ReturnType<typeof setTimeout>;
@@ -45,40 +45,40 @@ export class Home {
   }
 }
 
-/** The instances that all calls share which leave nothing behind; a new one after each trap. */
+/** The instances for calls that leave nothing behind. After a trap the next call gets a new one. */
 export const shared: Readonly<Record<Part, Home>> = {
   loops: new Home('loops'),
   polygons: new Home('polygons'),
 };
 
-/** What a call may use unless told otherwise; WebAssembly memory ends at 4 GiB. */
+/** The default memory limit of a call; WebAssembly memory ends at 4 GiB. */
 export const kDefaultMemoryBytes = 3 * 2 ** 30;
 const kProgressMs = 30;
 /**
- * WebAssembly memory never shrinks: an instance that has grown past this is given up once it has been
- * idle for a while. Not at once: large work often comes in a row, and growing anew takes its time.
+ * WebAssembly memory never shrinks, so an instance that has grown beyond this is dropped when it has been
+ * idle for a while. Not at once: large calls often follow each other, and growing again takes time.
  */
 const kKeepBytes = 256 * 2 ** 20;
 const kIdleMs = 1000;
-/** Dying instances that cannot grow by this many 64 KiB pages have run out of memory. */
+/** If an instance that trapped cannot grow by this many 64 KiB pages, it ran out of memory. */
 const kProbePages = 1024;
-/** Of the place and the result's handle, which each call's block begins with, and what pads them to 8. */
+/** The head of each call's block: the place, the result's handle, and padding to a multiple of 8. */
 const kHeadBytes = 4 * kPlaceLength + 8;
 
 type Export = (...args: readonly number[]) => number;
 
 interface Core {
   readonly memory: WebAssembly.Memory;
-  /** The export of that name; throws `load-failed` where the core has none. */
+  /** The export of that name; throws `load-failed` if the core has none. */
   readonly find: (name: string) => Export;
   readonly alloc: Export;
   readonly free: Export;
   readonly resultData: Export;
   readonly resultLength: Export;
   readonly resultFree: Export;
-  /** How many calls have been entered and not left: once a call has trapped, never 0 again. */
+  /** How many calls of exports have begun and not returned. After a trap, never 0 again. */
   entered: number;
-  /** A result whose arrays are lent out, freed by the next call. */
+  /** The handle of a result whose arrays are lent, or 0. The next call frees it. */
   lent: number;
 }
 
@@ -88,7 +88,7 @@ interface Run {
     Watch<unknown>,
     'onProgress' | 'maxSeconds' | 'keepsResult' | 'borrows' | 'explain'
   >;
-  /** Hands a result on, by its handle. */
+  /** Reads the result of this handle, and gives it to the listener. */
   readonly hear: (handle: number) => void;
   readonly started: number;
   told: number;
@@ -99,9 +99,9 @@ interface Run {
 
 interface Stop {
   readonly reason: unknown;
-  /** Whether what the core has until then is still wanted. */
+  /** Whether what the core has found until then is still wanted. */
   readonly gently: boolean;
-  /** Whether the core has been told to end; if not, it was done before it could be. */
+  /** Whether the core has been asked to end. If not, it was done first. */
   heard: boolean;
 }
 
@@ -109,14 +109,14 @@ const modules: Partial<Record<Part, WebAssembly.Module>> = {};
 let run: Run | undefined;
 let lendsCopies = false;
 
-/** Whether arrays are lent as copies from now on, which the next call of the same instance detaches. */
+/** Sets whether lent arrays are copies from now on; the next call of the same instance detaches these. */
 export function lendCopies(yes: boolean): void {
   lendsCopies = yes;
 }
 
 /**
- * Makes `compiled` the module of a part that is called from now on, and starts an instance of it.
- * @throws SoapfilmError `load-failed` when it is not soapfilm's
+ * Starts an instance of `compiled`, which is the module of the part from now on.
+ * @throws SoapfilmError `load-failed` if it is not soapfilm's
  */
 export async function startCore(part: Part, compiled: WebAssembly.Module): Promise<void> {
   const started = await WebAssembly.instantiate(compiled, imports(compiled));
@@ -124,7 +124,7 @@ export async function startCore(part: Part, compiled: WebAssembly.Module): Promi
   modules[part] = compiled;
 }
 
-/** Functions for all that the module imports: ours by name, the rest do nothing. */
+/** A function for each import of the module: ours by name; all others do nothing. */
 function imports(compiled: WebAssembly.Module): WebAssembly.Imports {
   const known: Record<string, (...args: number[]) => unknown> = {
     sf_host_progress: onHostProgress,
@@ -177,7 +177,7 @@ function open(part: Part, { exports }: WebAssembly.Instance): Core {
 
 /**
  * Makes the instance of a home, if it has none.
- * @throws SoapfilmError `not-loaded`; what the engine throws when it has no room for one
+ * @throws SoapfilmError `not-loaded`; also what the engine throws if it has no room for one
  */
 export function start(home: Home): void {
   const module = modules[home.part];
@@ -194,7 +194,7 @@ function onHostProgress(fraction: number, bestCost: number, lowerBound: number):
   return 0;
 }
 
-/** Looks at the time and tells the listener; sets `stop` where the work is to end. */
+/** Looks at the time and calls the listener; sets `stop` if the work is to end. */
 function watchWork(run: Run, fraction: number, bestCost: number, lowerBound: number): void {
   const { watch, started } = run;
   const now = performance.now();
@@ -208,7 +208,7 @@ function watchWork(run: Run, fraction: number, bestCost: number, lowerBound: num
     run.fraction = Math.min(1, Math.max(run.fraction, fraction));
     if (watch.onProgress && now - run.told >= kProgressMs) {
       watch.onProgress(run.fraction, bestCost, lowerBound);
-      // Taken afterwards, so that a slow listener cannot use up all the time.
+      // The time after the call, so that a slow listener cannot use up all of it.
       run.told = performance.now();
     }
   } catch (reason) {
@@ -216,7 +216,7 @@ function watchWork(run: Run, fraction: number, bestCost: number, lowerBound: num
   }
 }
 
-/** The import that hands over a result on the way; never throws into the core either. */
+/** The import that the core calls with each better result; never throws into the core either. */
 function onHostResult(handle: number): void {
   if (!run || run.stop) return;
   try {
@@ -227,16 +227,17 @@ function onHostResult(handle: number): void {
 }
 
 /**
- * Calls an export `name(...args, where, result)` of a part and hands back its result arrays. Whatever
- * the outcome, nothing of it stays in the core but what it is for, and what is lent.
+ * Calls an export `name(...args, where, result)` of a part and returns its result arrays. Whatever the
+ * outcome, the memory of the call is freed. What the export is meant to keep stays in the core, and so do
+ * lent arrays.
  *
  * @param home the instance to call: `shared[part]`, unless the call leaves something for later ones
- * @param read names the arrays: of `border.ts`
- * @returns copies of the arrays, unless borrowed; `found` is false for status 1, "no triangulation".
- *   A listener that throws when the core cannot be told any more, since it is done, changes nothing of
- *   that: what it has thrown is reported.
- * @throws SoapfilmError `not-loaded`; what the core's status says; `time-limit`; `out-of-memory`
- *   and `crashed`, after which the next call has a new instance; what the listeners throw
+ * @param read gives the arrays their names: one of the readers in `border.ts`
+ * @returns copies of the arrays, unless borrowed; `found` is false for status 1, "no triangulation". If a
+ *   listener throws when the core is already done, the result is returned, and the error is reported
+ * @throws SoapfilmError `not-loaded`; the error for the core's status; `time-limit`; `out-of-memory` and
+ *   `crashed`. After a trap, `shared` homes get a new instance at the next call; other homes are lost. Also
+ *   what the listeners throw
  */
 export function callCore<T>(
   home: Home,
@@ -261,7 +262,7 @@ export function callCore<T>(
     takeBack(home, core);
     return callIn(home, core, name, args, read, thisRun);
   } catch (error) {
-    // Whatever was thrown, nothing is left of an instance that has not come back from a call.
+    // An instance that has not returned from a call is lost, whatever was thrown.
     if (home.core?.entered === 0 || error instanceof SoapfilmError) throw error;
     throw trapped(error, home);
   } finally {
@@ -270,7 +271,7 @@ export function callCore<T>(
   }
 }
 
-/** Frees what the last call has lent out. */
+/** Frees what the last call has lent. */
 function takeBack(home: Home, core: Core): void {
   const { lent } = core;
   core.lent = 0;
@@ -280,7 +281,7 @@ function takeBack(home: Home, core: Core): void {
   home.copies = [];
 }
 
-/** Lets a large shared instance go after a while without calls. Node does not wait for that. */
+/** Drops a large shared instance after a while without calls. Its timer does not keep Node alive. */
 function giveUpWhenIdle(home: Home): void {
   clearTimeout(home.idle);
   if (home.core && home.core.memory.buffer.byteLength > kKeepBytes) {
@@ -306,7 +307,7 @@ function callIn<T>(
   const { memory } = core;
   const entry = core.find(name);
   const { borrows = false, explain = statusError } = thisRun.watch;
-  // One block: the place, the result's handle, padding, then the arrays. Exact: these are doubles.
+  // One block: the place, the result's handle, padding, then the arrays. The sum is exact in doubles.
   let size = kHeadBytes;
   for (const arg of args) {
     if (arg !== null && typeof arg !== 'number') size += padded(arg.byteLength);
@@ -337,7 +338,7 @@ function callIn<T>(
       core.free(block);
     }
   }
-  // A call that the core made of the host, and that called the core, may have trapped in that.
+  // During the call the host may have called the core again, and that inner call may have trapped.
   if (core.entered !== 0) throw trapped(thisRun.stop?.reason, home);
   const { stop } = thisRun;
   if (place) {
@@ -374,7 +375,7 @@ function copyIn(memory: WebAssembly.Memory, next: number, args: readonly CoreArg
 
 /**
  * The arrays of a result: copies, or lent by `lender`.
- * @throws SoapfilmError `out-of-memory` where there is no room for copies
+ * @throws SoapfilmError `out-of-memory` if there is no room for copies
  */
 function readArrays<T>(
   core: Core,
@@ -410,7 +411,7 @@ function copyOf<V extends Float64Array | Uint32Array>(view: V): V & { readonly b
 
 const padded = (bytes: number): number => Math.ceil(bytes / 8) * 8;
 
-/** After a trap: drops the instance, whose memory is in an unknown state, and names the trap. */
+/** The error after a trap. Drops the instance, whose memory is in an unknown state. */
 function trapped(error: unknown, home: Home): SoapfilmError {
   const full = home.core ? !canGrow(home.core.memory) : error instanceof RangeError;
   home.core = undefined;

@@ -1,17 +1,17 @@
-// A thread's side of the pool: runs the calls that it is sent, one after the other.
+// The thread's side of the pool: runs the calls that it receives, one after the other.
 import { computePolygons, triangulationOfOne } from './compute_polygons.js';
 import { computeSpan } from './compute_span.js';
 import { buffersOf, packError, packErrors, type Calls, type Reply, type Request } from './protocol.js';
 import { startCore } from './runtime.js';
 import type { Part, PolygonOptions, SpanOptions } from './types.js';
 
-/** The end of the thread's channel, alike in browsers and Node. */
+/** The thread's end of the channel, the same in browsers and Node. */
 export interface Port {
   onmessage: ((event: { readonly data: unknown }) => void) | null;
   postMessage(message: unknown, transfer: ArrayBuffer[]): void;
 }
 
-/** The end of a span is for the pool to tell of, once it has it. */
+/** The last call of `onProgress` is left to the caller's side, once it has the span. */
 const calls: Calls = {
   spanLoops: computeSpan,
   triangulatePolygon: (polygon, options) => triangulationOfOne(computePolygons(polygon, options, false)),

@@ -1,32 +1,33 @@
-// What stays in the core between calls: each in an instance of its own as far as there are enough, so that a
-// crash of one leaves the others alone; freed when it is disposed of, or forgotten.
+// Sessions: what stays in the core between calls. Each has an instance of its own while there are enough, so
+// that a crash of one does not harm the others. It is freed when it is disposed of, or no longer referred to.
 import type { ArrayReader } from './border.js';
 import { SoapfilmError } from './errors.js';
 import { callCore, Home, start, type CoreArgument, type Watch } from './runtime.js';
 import type { Part } from './types.js';
 
 /**
- * How many instances of a part there are for sessions. One takes about 100 KiB, a millisecond to make, and
- * 8 GiB or more of addresses, of which an engine has enough for a hundred or for some thousands.
+ * How many instances of a part sessions may have. One takes about 100 KiB, and a millisecond to make. It also
+ * takes 8 GiB or more of address space. Some engines have enough for a hundred instances, others for some
+ * thousands.
  */
 const kMostRooms = 32;
 
 /** An instance, and the sessions in it by their ids. */
 class Room extends Home {
   readonly tenants = new Set<number>();
-  /** The session in whose call it has trapped. */
+  /** The session whose call trapped. */
   culprit?: number;
 }
 
 const roomsOf: Readonly<Record<Part, Set<Room>>> = { loops: new Set(), polygons: new Set() };
 
-/** The room of a new session: a new one, or where there are enough the one with the fewest in it. */
+/** The room for a new session: a new room, or if there can be no more, the one with the fewest sessions. */
 function roomFor(part: Part): Room {
   const rooms = roomsOf[part];
   if (rooms.size < kMostRooms) {
     const room = new Room(part);
     try {
-      // The first need not do with another: whatever is wrong, its first call tells.
+      // The first room starts at its first call, and that throws if it cannot: there is no other room to use.
       if (rooms.size > 0) start(room);
       rooms.add(room);
       return room;
@@ -41,7 +42,7 @@ const forgotten = new FinalizationRegistry<Session>((session) => {
   try {
     session.dispose();
   } catch {
-    // A crash: those who are lost by it say so when they are used.
+    // A crash. The sessions that it lost throw when they are used.
   }
 });
 
@@ -49,7 +50,7 @@ let count = 0;
 
 /** A session as the core knows it: a number in one instance. */
 export class Session {
-  /** By which errors name it: 1 for the first in this thread. */
+  /** The number by which errors name it: 1 for the first in this thread. */
   readonly id = ++count;
   readonly #room: Room;
   readonly #close: string;
@@ -63,9 +64,9 @@ export class Session {
   }
 
   /**
-   * Begins it by a call of the core.
-   * @param owner has it freed when it is collected; not to be referred to by `read` or `numberOf`
-   * @throws SoapfilmError as `call`; the session is of no use then
+   * Opens the session by a call of the core.
+   * @param owner the session is freed when this is garbage; `read` and `numberOf` must not refer to it
+   * @throws SoapfilmError those of `call`; the session can then not be used
    */
   open<T>(
     owner: object,
@@ -102,7 +103,7 @@ export class Session {
 
   /**
    * The arrays of a call in the session's instance.
-   * @throws SoapfilmError as `callCore`; one that ends the instance names all sessions that are lost
+   * @throws SoapfilmError those of `callCore`; one that ends the instance names all sessions that are lost
    */
   call<T>(
     name: string,
@@ -122,7 +123,7 @@ export class Session {
   dispose(): void {
     if (this.#number === undefined) return;
     const { lost, tenants } = this.#room;
-    // Memory of instances never shrinks: the last session takes its instance along.
+    // An instance's memory never shrinks, so the last session drops its instance.
     if (!lost && tenants.size > 1) this.call(this.#close, [this.#number], () => undefined);
     this.#number = undefined;
     forgotten.unregister(this);

@@ -6,7 +6,7 @@ import type { CandidateList, LoopSet, SpanOptions, Weights } from './types.js';
 
 /**
  * The options, checked, without those that were left out.
- * @param own whether arrays may not be views of the caller's
+ * @param own whether arrays must be copies, not views of the caller's
  * @throws SoapfilmError `bad-weights`, `bad-normals`, `bad-candidates`, `bad-option`
  */
 export function spanOptionsOf(given: Given<SpanOptions>, input: LoopSet, own: boolean): SpanOptions {

@@ -1,19 +1,19 @@
-// Threads as the pool sees them: Web Workers, unless `node_host.ts` has put Node's in their place.
+// Threads as the pool sees them: Web Workers, which `node_host.ts` replaces by Node's threads.
 
 export interface Thread {
   post(message: unknown, transfer: ArrayBuffer[]): void;
   terminate(): void;
-  /** Whether the thread is a reason for the process to go on; means nothing in a browser. */
+  /** Sets whether the thread keeps the process alive; does nothing in a browser. */
   keepAlive(yes: boolean): void;
 }
 
 export interface ThreadListener {
   message(data: unknown): void;
-  /** The thread is of no more use. */
+  /** Called when the thread can no longer be used. */
   failed(cause: Error): void;
 }
 
-/** Starts `worker_thread.ts` from its file, or from its text where that is given. */
+/** Starts `worker_thread.ts` from its file, or from its text if that is given as `script`. */
 export type ThreadStarter = (listener: ThreadListener, script?: string) => Thread;
 
 let starter: ThreadStarter = startWorker;
@@ -29,7 +29,7 @@ export function setThreadStarter(other: ThreadStarter): void {
 function startWorker(listener: ThreadListener, script?: string): Thread {
   const worker =
     script === undefined
-      ? // In one piece, since this is the form that bundlers look for.
+      ? // As one expression, since bundlers look for this form.
         new Worker(new URL('./worker_thread.js', import.meta.url), { type: 'module' })
       : startFromText(script);
   worker.onmessage = ({ data }) => {

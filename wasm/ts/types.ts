@@ -11,30 +11,33 @@ export interface LoopSet {
 /** A point as a triple. */
 export type Point = readonly [x: number, y: number, z: number];
 
-/** Coordinates as numbers in an array of any kind; how many there must be depends on the use. */
+/** Coordinates, in an array of any of these kinds. How many there must be depends on the use. */
 export type Coordinates = readonly number[] | Float32Array | Float64Array;
 
 /** A point in space: three coordinates, or an object that has them, such as three's `Vector3`. */
 export type PointLike = Coordinates | { readonly x: number; readonly y: number; readonly z: number };
 
-/** A point of the plane, likewise. */
+/** A point of the plane: two coordinates, or an object with `x` and `y` and without `z`. */
 export type Point2Like = Coordinates | { readonly x: number; readonly y: number; readonly z?: undefined };
 
-/** A closed loop: points, or `[3m]` all their coordinates in one typed array. */
+/** A closed loop: an array of points, or one typed array `[3m]` of all their coordinates. */
 export type LoopLike = readonly PointLike[] | Float32Array | Float64Array;
 
-/** Loops in flat arrays as they may be given. */
+/** Loops in flat arrays, as an argument. */
 export interface LoopSetLike {
   /** `[3n]` xyz, one length unit. */
   readonly positions: Float32Array | Float64Array;
-  /** `[k + 1]`, first 0, not falling, last n. Default: all vertices are one loop. */
+  /** `[k + 1]`, first 0, never falling, last n. Default: all vertices form one loop. */
   readonly starts?: Uint32Array | readonly number[];
 }
 
-/** Loops in any form: flat arrays, or one list of points a loop. They are read, and never changed or taken. */
+/** Loops in any form: flat arrays, or one list of points for each loop. Calls only read them. */
 export type LoopsLike = LoopSetLike | readonly LoopLike[];
 
-/** Factors of the cost. At least one is positive; those left out are 0. */
+/**
+ * Factors of the cost; those left out are 0. At least one must be positive, unless the `candidates` have
+ * weights of their own that are not all 0.
+ */
 export interface Weights {
   /** Per square unit of triangle area. */
   readonly area?: number;
@@ -44,88 +47,102 @@ export interface Weights {
   readonly dihedral?: number;
 }
 
-/** Names of the candidate spaces that can be asked for. */
+/** The named candidate spaces; see `SpanOptions.candidates`. */
 export type CandidateSpace = 'auto' | 'all' | 'delaunay' | 'near';
 
 /** A caller's own candidate triangles. */
 export interface CandidateList {
-  /** `[3c]` vertex indices; no triangle twice, none collinear. */
+  /** `[3c]` vertex indices. No triangle may occur twice, and none may be collinear. */
   readonly triangles: Uint32Array;
-  /** `[c]` added to the cost of each triangle. */
+  /** `[c]` the cost to add for each triangle: finite, and negative if you like. */
   readonly weights?: Float64Array;
 }
 
 /**
- * Called while a span is computed, every 30 ms or so, and once when a surface has been found. What it
- * throws ends the work, and the call throws it on. Once the work is done, as in that last call, it cannot
- * be ended any more: the result is returned all the same, and what was thrown is reported as an error that
- * nobody catches (`reportError`, or the console where there is no such function, as in Node).
+ * Called about every 30 ms while a span is computed, and once more at the end if a surface was found.
+ *
+ * If the listener throws, the work ends, and the call throws the same error. If the work is already done,
+ * as it is in the last call, the result is returned all the same. The error is then reported as one that
+ * nobody catches: by `reportError`, or on the console where there is no such function, as in Node.
  * @param fraction share of the work done, 0 to 1, never falling
  * @param bestCost cost of the best surface so far, `Infinity` while there is none
- * @param lowerBound proven lower bound on the optimal cost: 0 at first, less only where candidates have
- *   negative weights; it starts anew with each space that `'auto'` tries
+ * @param lowerBound proven lower bound on the optimal cost. It is 0 at first, or less if candidates have
+ *   negative weights, and starts again with each space that `'auto'` tries
  */
 export type ProgressListener = (fraction: number, bestCost: number, lowerBound: number) => void;
 
 export interface SpanOptions {
-  /** Default: dihedral 1 and area 1e-3 / (bounding-box diagonal)², which settles flat ties. */
+  /** Default: dihedral 1, and area 1e-3 / (bounding-box diagonal)² to decide between flat surfaces. */
   readonly weights?: Weights;
-  /** `'sum'` (default), or the least largest angle, ties settled by the weighted sum. */
+  /**
+   * What is to be least. `'sum'` (default): the weighted sum. `'worst-dihedral'`: the largest angle, and
+   * among surfaces that tie in it the weighted sum.
+   */
   readonly objective?: 'sum' | 'worst-dihedral';
   /**
-   * Triangles that the surface may use.
-   * - `'all'` triples of vertices that are not collinear.
-   * - `'delaunay'`: facets of the Delaunay tetrahedralization, after edge protection, which may insert
-   *   vertices on loop edges. For loops of any size; on noisy ones the optimum costs up to 1.5 times
-   *   that over all triples, or there is none.
-   * - `'near'`: the facets for the loops as they are, and triples of near-optimal surfaces. The
-   *   optimum among them usually costs at most 1.02 times that over all triples, and takes a twentieth of
-   *   the time. So for one loop up to 4000 vertices, or two up to 120 together; for others triples of
-   *   neighbouring vertices, and those of a surface that always exists. Without angles in the cost one
-   *   loop up to 1000 vertices takes `'all'`, which is as quick. `optimal` and `lowerBound` are about the
-   *   last such set.
-   * - `'auto'` (default): all triples where that is quick. Else the Delaunay facets, and then near triples
-   *   if they may give a better surface in reasonable time: always for small loops, for large ones where
-   *   the facets' surface is rough (more than 0.05 rad an edge on average), never for one loop of more
-   *   than 2000 vertices. The cheapest surface of all is the answer; `candidates` says which space it is
-   *   from. A better one from near triples of three loops or more may come without a proof,
-   *   `optimal: false`. Where all these hold no surface, all triples.
+   * The triangles that the surface may use.
+   * - `'all'`: all triples of vertices that are not collinear.
+   * - `'delaunay'`: the facets of the Delaunay tetrahedralization. Edge protection comes first, and may
+   *   insert vertices on loop edges. This suits loops of any size. On noisy loops the optimum costs up to
+   *   1.5 times the optimum over all triples, or the facets hold no surface.
+   * - `'near'`: the Delaunay facets of the loops without inserted vertices, and triples of near-optimal
+   *   surfaces. The optimum usually costs at most 1.02 times the optimum over all triples, and takes a
+   *   twentieth of the time. This holds for one loop of up to about 4000 vertices, and for two loops of
+   *   up to about 120 together. For other loops, the triples are those of neighbouring vertices, and for
+   *   several loops of up to 2000 vertices together those of one surface found beforehand. One loop of up
+   *   to 1000 vertices without angles in its cost uses `'all'` instead, which is as quick. If the
+   *   candidates are widened in several rounds, `optimal` and `lowerBound` are about the last round.
+   * - `'auto'` (default): all triples if that is quick. Otherwise the Delaunay facets, and near triples if
+   *   the facets hold no surface, or if near triples are likely to give a better one in reasonable time.
+   *   For small loops (one of up to 1000 vertices, or several of up to 80 together) that is so if the
+   *   facets' surface has more than 0.001 rad an edge on average; for larger loops, if it has more than
+   *   0.05 rad. With `'worst-dihedral'` its largest angle counts instead; if the cost has no angles, near
+   *   triples are tried in any case. They are never tried to better a surface over one loop of more than
+   *   2000 vertices. If none of these spaces holds a surface, all triples are tried, if they fit into
+   *   memory. The answer is the cheapest surface of all spaces tried; `candidates` names its space. For
+   *   more than two loops, and for two of more than about 120 vertices together, a better surface from
+   *   near triples may come without a proof, with `optimal: false`.
    */
   readonly candidates?: CandidateSpace | CandidateList;
   /**
-   * `[3n]`: normal of the face that lies across the edge from each vertex to the next of its loop,
-   * NaN for none. Its angle to the boundary triangle, wound along the loop, is added to the cost: only
-   * here does the direction of a loop matter. As in a mesh, the face is on the loop's right.
+   * `[3n]` normals of the faces around the surface. Each vertex has three numbers, for the face across
+   * the edge from this vertex to the next of its loop: the normal of that face, or NaN if there is none.
+   * The angle between the face and the boundary triangle, wound along the loop, is added to the cost.
+   * The direction of a loop matters only here: the face is on the loop's right, as in a mesh.
    */
   readonly boundaryNormals?: Float64Array;
   /**
-   * Memory that the solver may use. Default 3 GiB. One loop over all triples that fits only in single
-   * precision is solved in it, to a relative error of about 1e-6, and comes with `optimal: false`.
+   * Memory that the solver may use. Default 3 GiB. If one loop over all triples fits only in single
+   * precision, it is solved in single precision: to a relative error of about 1e-6, `optimal: false`.
    */
   readonly maxMemoryBytes?: number;
   /** Seconds after which the call ends with `time-limit`. Default: none. */
   readonly maxSeconds?: number;
   /**
-   * Whether a limit, or the `signal` of a worker's call, ends the work with the best surface found
-   * until then: `optimal: false`, and the optimum lies between `lowerBound` and `cost`. Surfaces are then
-   * looked for first, which takes some hundredths of a second. The error of the limit comes only if there
-   * is none yet. Default `false`.
+   * Whether work that ends early returns the best surface found so far. A limit, or the `signal` of a
+   * worker's call, may end it. The surface then has `optimal: false`, and the optimum lies between
+   * `lowerBound` and `cost`. The call throws only if no surface was found yet. With this option the
+   * solver first looks for surfaces, which takes some hundredths of a second. Default `false`.
    */
   readonly bestSoFar?: boolean;
   /**
-   * With `bestSoFar`: called with every surface that is better than the one before. What it throws is
-   * dealt with as for `ProgressListener`.
+   * With `bestSoFar`: called with every surface that is better than the one before. If it throws, the
+   * same happens as for a `ProgressListener`.
    */
   readonly onBest?: (span: Span) => void;
   /**
-   * `[3m]` triangles of an earlier answer to the same loops, edited or not: the search for surfaces
-   * begins there. What does not fit any more does no harm, and the optimum does not depend on it.
+   * `[3m]` triangles of an earlier answer to the same loops, edited or not. For several loops, the search
+   * for surfaces begins with them. Triangles that no longer fit do no harm, and the optimum does not
+   * depend on them.
    */
   readonly startFrom?: Uint32Array;
   readonly onProgress?: ProgressListener;
 }
 
-/** Sums over a surface; angles in radians. */
+/**
+ * Measures of a surface: the sums of its triangles' areas and perimeters, and the sum and the largest of
+ * the angles between triangles, in radians.
+ */
 export interface SpanTerms {
   readonly area: number;
   readonly perimeter: number;
@@ -136,7 +153,7 @@ export interface SpanTerms {
 export interface SpanStats {
   /** Candidate triangles. */
   readonly candidates: number;
-  /** Domains solved, or bounded (Zou, Ju, Carr 2013, section 3.2.1); segments for a single loop. */
+  /** Domains solved or bounded (Zou, Ju, Carr 2013, section 3.2.1); for a single loop, segments. */
   readonly domains: number;
   /** Minimal weak edge sets stored (section 3.2.3); one for each segment of a single loop. */
   readonly minimalSets: number;
@@ -145,19 +162,19 @@ export interface SpanStats {
   readonly peakBytes: number;
 }
 
-/** A vertex that edge protection put on a loop edge, so that a mesh around can be split likewise. */
+/** A vertex that edge protection put on a loop edge; a mesh around it can be split at the same place. */
 export interface InsertedVertex {
-  /** Input loop and edge: the edge from vertex `edge` of that loop to the next. */
+  /** Input loop, and in it the edge from vertex number `edge` to the next. */
   readonly loop: number;
   readonly edge: number;
-  /** 0 to 1 along that edge. */
+  /** Where on that edge the vertex is: 0 at its start, 1 at its end. */
   readonly parameter: number;
 }
 
-/** The candidate space that an answer is from. */
+/** The candidate space that an answer comes from; `'given'` is the caller's own list. */
 export type SpaceUsed = 'all' | 'delaunay' | 'near' | 'given';
 
-/** The optimal surface. */
+/** A surface that spans the loops: the optimal one, unless `optimal` is `false`. */
 export interface Span {
   readonly found: true;
   /** `[3n']`: the input vertices in input order, then the inserted ones. */
@@ -166,7 +183,7 @@ export interface Span {
   readonly triangles: Uint32Array;
   /** `[k + 1]` offsets into `loopVertices`. */
   readonly starts: Uint32Array;
-  /** `[n']` the boundary loops of the result, inserted vertices included. */
+  /** `[n']` the vertices along the boundary loops of the result, inserted ones included. */
   readonly loopVertices: Uint32Array;
   /** One record for each vertex from n on. */
   readonly inserted: readonly InsertedVertex[];
@@ -178,7 +195,7 @@ export interface Span {
   /** Whether the surface is proven to be the best in its candidate space. */
   readonly optimal: boolean;
   readonly candidates: SpaceUsed;
-  /** `[m]` triangles in the order of splitting, for animation. */
+  /** `[m]` indices of the triangles in the order of splitting, for animation. */
   readonly order: Uint32Array;
   readonly stats: SpanStats;
 }
@@ -192,13 +209,13 @@ export interface NoSpan {
 }
 
 /**
- * A polygon with holes: the first ring is the outer one, each of the others a hole. Rings may run
- * either way, may repeat their first vertex at the end, and may touch but not cross.
+ * A polygon with holes: the first ring is the outer one, and each other ring is a hole. Rings may run in
+ * either direction, and may repeat their first vertex at the end. They may touch but not cross.
  */
 export interface PolygonSet {
-  /** `[dim · n]` xy, or xyz of points in a plane of any tilt. */
+  /** `[dim · n]` xy, or xyz of points near one plane of any tilt. */
   readonly positions: Float32Array | Float64Array;
-  /** `[r + 1]`, first 0, increasing, last n. Default: all vertices are one ring. */
+  /** `[r + 1]`, first 0, increasing, last n. Default: all vertices form one ring. */
   readonly starts?: Uint32Array | readonly number[];
   /** Default 2. */
   readonly dim?: 2 | 3;
@@ -206,23 +223,23 @@ export interface PolygonSet {
   readonly points?: Float32Array | Float64Array;
 }
 
-/** A polygon as earcut takes it. */
+/** A polygon in earcut's form. */
 export interface EarcutPolygon {
   /** `[dim · n]` */
   readonly coordinates: ArrayLike<number>;
-  /** Where each hole begins, in vertices. */
+  /** The number of each hole's first vertex. Default: no holes. */
   readonly holeIndices?: ArrayLike<number> | null;
   /** Default 2. */
   readonly dim?: 2 | 3;
 }
 
 /**
- * A closed ring: points of the plane or of space, all of a polygon alike, or `[2m]` all coordinates xy in
- * one typed array.
+ * A closed ring: an array of points, or one typed array `[2m]` of all coordinates xy. The points of one
+ * polygon are all in the plane, or all in space.
  */
 export type Ring = readonly (Point2Like | PointLike)[] | Float32Array | Float64Array;
 
-/** A polygon in any form: flat arrays, or one list of points a ring. */
+/** A polygon in any form: flat arrays, or one list of points for each ring. */
 export type PolygonLike = PolygonSet | EarcutPolygon | readonly Ring[];
 
 /** Many polygons in flat arrays. */
@@ -231,7 +248,7 @@ export interface PolygonBatch {
   readonly positions: Float32Array | Float64Array;
   /** `[r + 1]` in vertices, first 0, increasing, last n. */
   readonly ringStarts: Uint32Array | readonly number[];
-  /** `[p + 1]` in rings, first 0, increasing, last r. */
+  /** `[p + 1]` in rings, first 0, never falling, last r. A polygon without rings is empty. */
   readonly polygonStarts: Uint32Array | readonly number[];
   /** Default 2. */
   readonly dim?: 2 | 3;
@@ -241,30 +258,31 @@ export interface PolygonBatch {
 export type PolygonsLike = PolygonBatch | readonly (readonly Ring[])[];
 
 export interface PolygonOptions {
-  /** `'flooding'` (default, Ronfard and Rossignac 1994) or `'trapezoids'` (Kumar): better angles. */
+  /** `'flooding'` (default, Ronfard and Rossignac 1994), or `'trapezoids'` (Kumar), with better angles. */
   readonly method?: 'flooding' | 'trapezoids';
-  /** `'strips'`: triangle strips as well. Default `'triangles'`. */
+  /** `'triangles'` (default), or `'strips'`, which adds triangle strips. */
   readonly output?: 'triangles' | 'strips';
-  /** `'delaunay'`: the constrained Delaunay triangulation. Default `'fast'`. */
+  /** `'fast'` (default), or `'delaunay'`: the constrained Delaunay triangulation. */
   readonly quality?: 'fast' | 'delaunay';
-  /** Whether the result is to be certified, by triangles of its complement too. Default `false`. */
+  /** Whether to certify the result, for which its complement is triangulated too. Default `false`. */
   readonly verify?: boolean;
   /**
-   * What to make of an invalid polygon. `'none'` (default): an error; `'even-odd'`, `'nonzero'`: the
-   * points about which its rings wind an odd number of times, or any number but 0.
+   * What an invalid polygon gives. `'none'` (default): an error. `'even-odd'`: the points around which its
+   * rings wind an odd number of times. `'nonzero'`: the points around which they wind any number of times
+   * but 0.
    */
   readonly repair?: 'none' | 'even-odd' | 'nonzero';
   /**
-   * Whether to record the actions of flooding, for one polygon. Water then rises along y, which it need
-   * not do otherwise, so the triangles may be others than without. Default `false`.
+   * Whether to record the actions of flooding. Only for one polygon and `method: 'flooding'`. The water
+   * then always rises along y, so the triangles may differ from those without a trace. Default `false`.
    */
   readonly trace?: boolean;
   /**
-   * Whether the typed arrays of the result may be views of the core's memory, which spares a copy: they
-   * are good until the next call of `triangulatePolygon`, `triangulatePolygons` or `triangulateGeoJSON`,
-   * even one that throws. What they hold afterwards is whatever the core has put there, or nothing, with
-   * length 0, once its memory has grown; `load({ checks: true })` makes sure of the latter. They are not to
-   * be written to or transferred. Default `false`. A worker's results are always one's own.
+   * Whether the typed arrays of the result may be views of the core's memory, which saves a copy. They are
+   * valid until the next call of `triangulatePolygon`, `triangulatePolygons` or `triangulateGeoJSON`, even
+   * if that call throws. After it they hold arbitrary numbers, or have length 0 if the core's memory has
+   * grown; with `load({ checks: true })` they always have length 0. Do not write to them or transfer them.
+   * Default `false`. Workers always return arrays that are the caller's own.
    */
   readonly borrow?: boolean;
   /** Memory that the core may use. Default 3 GiB. */
@@ -275,24 +293,27 @@ export interface PolygonOptions {
 
 /** Options for many polygons. */
 export interface PolygonsOptions extends PolygonOptions {
-  /** Whether invalid polygons get no triangles and an entry in `errors`. Default `false`: they throw. */
+  /**
+   * Whether an invalid polygon gets no triangles, and an entry in `errors`. Default `false`: the call
+   * throws.
+   */
   readonly skipInvalid?: boolean;
 }
 
-/** An action of flooding; sections 3 and 4 of the paper. */
+/** An action of flooding (Ronfard and Rossignac 1994, sections 3 and 4). */
 export interface FloodStep {
   readonly action: 'start' | 'raise' | 'fill' | 'bridge' | 'spill' | 'jump';
-  /** The vertices at the ends of the active chain after it. */
+  /** The vertices at the ends of the active chain after the action. */
   readonly left: number;
   readonly right: number;
-  /** How many triangles there are after it. */
+  /** How many triangles there are after the action. */
   readonly triangles: number;
 }
 
 export interface PolygonTriangulation {
   /**
-   * `[3m]` vertices, numbered as in the input; counter-clockwise, in space as the outer ring runs.
-   * m = n + 2 holes - 2 where rings do not touch.
+   * `[3m]` vertices, numbered as in the input. Triangles are counter-clockwise; in space they run as the
+   * outer ring does. m = n + 2 holes - 2 if rings do not touch, and 2 more for each isolated vertex.
    */
   readonly triangles: Uint32Array;
   /** With `output: 'strips'`: strip i is `strips[stripStarts[i]]` up to `strips[stripStarts[i + 1] - 1]`. */
@@ -300,51 +321,51 @@ export interface PolygonTriangulation {
   readonly stripStarts: Uint32Array;
   /** `[dim · a]` points that repair added, numbered after all others. */
   readonly added: Float64Array;
-  /** `[2a]` the two edges that each is on, by their first vertices. */
+  /** `[2a]` the two edges that each added point is on, by their first vertices. */
   readonly addedOn: Uint32Array;
-  /** With `trace`. */
+  /** With `trace`: the actions of flooding; else empty. */
   readonly trace: readonly FloodStep[];
 }
 
-/** The triangles of many polygons; vertices are numbered through all of them. */
+/** The triangles of many polygons. Vertices have their numbers in the whole input. */
 export interface PolygonsTriangulation extends PolygonTriangulation {
   /** `[p + 1]` where each polygon's triangles begin, counted in triangles. */
   readonly triangleStarts: Uint32Array;
   /** `[p + 1]` where each polygon's strips begin. */
   readonly polygonStrips: Uint32Array;
-  /** With `skipInvalid`: what is wrong with each invalid polygon, by its `polygon`. */
+  /** With `skipInvalid`: an error for each invalid polygon, whose number is the error's `polygon`. */
   readonly errors: readonly SoapfilmError[];
 }
 
-/** What an edit of a PolygonSession changed. Its arrays may be views of one buffer, which is theirs alone. */
+/** What an edit of a PolygonSession changed. Its two arrays may share one buffer, which nothing else uses. */
 export interface PolygonEdit {
   /** The vertex inserted, moved or deleted. */
   readonly vertex: number;
   /** How many triangles there are now. */
   readonly triangleCount: number;
-  /** `[c]` which of them are new, by increasing number; all others are as before. */
+  /** `[c]` numbers of the triangles that are new, increasing; all others are as before. */
   readonly changed: Uint32Array;
-  /** `[3c]` their vertices. */
+  /** `[3c]` vertices of the new triangles. */
   readonly triangles: Uint32Array;
 }
 
 /** What a PolygonSession holds. */
 export interface PolygonState {
-  /** `[2n]` by vertex; those of deleted vertices mean nothing. */
+  /** `[2n]` coordinates of each vertex; those of deleted vertices mean nothing. */
   readonly positions: Float64Array;
   /**
-   * `[n]` the next vertex of each one's ring, with the polygon to the left; `0xffffffff` for isolated
-   * vertices, and the vertex itself for deleted ones.
+   * `[n]` for each vertex the next one of its ring, where rings have the polygon to their left. For
+   * isolated vertices `0xffffffff`; for deleted ones the vertex itself.
    */
   readonly next: Uint32Array;
-  /** Strips, as those of `triangulatePolygon`. */
+  /** Strips, in the same form as those of `triangulatePolygon`. */
   readonly strips: Uint32Array;
   readonly stripStarts: Uint32Array;
-  /** Whether triangles of the polygon and of its complement have been tested to be right, all anew. */
+  /** Whether the triangles of the polygon and of its complement passed a check from scratch. */
   readonly certified: boolean;
 }
 
-/** A GeoJSON object, as far as it matters here: those of `@types/geojson` are, and so are parsed ones. */
+/** A GeoJSON object, with the fields that are used here. Objects of `@types/geojson` and parsed text fit. */
 export interface GeoJSONLike {
   readonly type: string;
   readonly coordinates?: unknown;
@@ -355,34 +376,34 @@ export interface GeoJSONLike {
 }
 
 export interface GeoJSONTriangulation extends PolygonsTriangulation {
-  /** `[2n]` the vertices of all polygons in their order in the input; altitudes are left out. */
+  /** `[2n]` the vertices of all polygons, in the order of the input and without altitudes. */
   readonly positions: Float64Array;
-  /** `[f + 1]` where each feature's polygons begin; a geometry alone is one feature. */
+  /** `[f + 1]` where each feature's polygons begin, in polygons. A geometry alone is one feature. */
   readonly featureStarts: Uint32Array;
 }
 
 /**
- * What can be loaded by itself: `'loops'`, for `spanLoops`, is `loops.wasm`; `'polygons'`, for
- * `triangulatePolygon`, `triangulatePolygons`, `triangulateGeoJSON` and `PolygonSession`, is
- * `polygons.wasm`.
+ * A part of the core that can be loaded by itself. `'loops'` is `loops.wasm`, for `spanLoops`. `'polygons'`
+ * is `polygons.wasm`, for `triangulatePolygon`, `triangulatePolygons`, `triangulateGeoJSON` and
+ * `PolygonSession`.
  */
 export type Part = 'loops' | 'polygons';
 
-/** A WebAssembly module, or where it is. */
+/** A WebAssembly module: compiled, as bytes, as a response that holds them, or as the place of its file. */
 export type WasmSource = URL | string | Response | BufferSource | WebAssembly.Module;
 
 export interface LoadOptions {
   /** Which parts to fetch. Default: all, at the same time. */
   readonly parts?: readonly Part[];
   /**
-   * Where to take the parts from; one source alone is for the first of `parts`. Default: beside the
-   * library's own module.
+   * Where to load the parts from: a source for each part by name, or one source, which is for the first
+   * of `parts`. Default: the files beside the library's own module.
    */
   readonly wasm?: WasmSource | Readonly<Partial<Record<Part, WasmSource>>>;
   /**
-   * Whether to lend, with `borrow`, copies which the next call detaches, so that arrays that are used for
-   * too long are empty at once, and not just in rare cases wrong. For tests; results are then no quicker to
-   * get than one's own. Default: as it is, at first `false`. Workers lend nothing.
+   * Whether `borrow` lends copies, which the next call detaches. An array that is used for too long is then
+   * empty at once; otherwise it would be wrong, but only in rare cases. This is for tests: `borrow` then
+   * saves no time. If left out, the setting does not change; at first it is `false`. Workers lend nothing.
    */
   readonly checks?: boolean;
 }

@@ -28,27 +28,28 @@ import type {
 export { SoapfilmError } from './errors.js';
 
 export interface WorkerOptions extends LoadOptions {
-  /** Threads at most, each started when there is work for it. Default 1. */
+  /** Most threads at once. One starts with the pool, others when there is work for them. Default 1. */
   readonly size?: number;
 }
 
-/** What every asynchronous call takes besides the options of its function. */
+/** Options that every asynchronous call has besides those of its function. */
 export interface CallOptions {
   /**
-   * Ends the work at once with `cancelled`; the signal's reason is the error's `cause`. With
-   * `bestSoFar` it ends with the best surface found until then, if there is one.
+   * Ends the work at once. The call fails with `cancelled`, and the error's `cause` is the signal's reason.
+   * With `bestSoFar` the call returns the best surface found so far instead, if there is one.
    */
   readonly signal?: AbortSignal;
 }
 
 /**
- * A pool of threads. Its functions are like those of the package's main entry. Calls start in order as
- * threads become free. Input is checked and copied into flat arrays when the call is made, and those are
- * handed over to the thread; results are the caller's own. Errors are those of the synchronous functions,
- * and `cancelled`, `disposed`, `crashed`; after any of them but `disposed` the next call works.
+ * A pool of threads. Its functions are those of the package's main entry, but asynchronous. Calls start in
+ * order, as threads become free. The input is checked and copied into flat arrays when the call is made;
+ * these copies are transferred to the thread. Results are the caller's own. Errors are those of the
+ * synchronous functions, `cancelled`, `disposed`, `crashed`, and `load-failed` if no thread can be started.
+ * After any of them but `disposed`, the next call works.
  */
 export interface Film {
-  /** Its listeners are called in this thread. */
+  /** The listeners are called in the caller's thread. */
   spanLoops(loops: LoopsLike, options?: SpanOptions & CallOptions): Promise<Span | NoSpan>;
   triangulatePolygon(
     polygon: PolygonLike,
@@ -62,13 +63,13 @@ export interface Film {
     geojson: GeoJSONLike,
     options?: PolygonsOptions & CallOptions,
   ): Promise<GeoJSONTriangulation>;
-  /** Ends all threads; calls under way, and later ones, are rejected with `disposed`. */
+  /** Ends all threads. Calls under way and later calls fail with `disposed`. */
   dispose(): void;
   [Symbol.dispose](): void;
 }
 
 /**
- * Starts a pool. Needs no `load()`, and shares what either compiles with it.
+ * Starts a pool. It needs no `load()`. A part that `load` or a pool has compiled is not compiled again.
  * @throws SoapfilmError `load-failed`, `bad-option`
  */
 export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
@@ -91,8 +92,8 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
       const input = flattenLoops(loops, true);
       const { signal, ...given } = optionsOf<SpanOptions & CallOptions>(options, { ...kSpanOptions, signal: true });
       const { onProgress, onBest, ...rest } = spanOptionsOf(given, input, true);
-      // What is proven after the last surface was heard of holds for it as well, unless that is about another
-      // space, in which no surface is known that costs as little.
+      // A bound that is proven after the latest surface came holds for that surface too, unless the bound is
+      // about another space: in that one, the best cost known is higher.
       let [best, bound] = [Infinity, 0];
       const watch = {
         signal: signalOf(signal),

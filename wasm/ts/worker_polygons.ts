@@ -32,7 +32,7 @@ export function polygonCalls(
     triangulatePolygons: async (polygons, options) => several(flattenBatch(polygons, true), options),
     triangulateGeoJSON: async (geojson, options) => {
       const { flat, featureStarts } = flattenGeoJSON(geojson);
-      // The thread's copy is handed over.
+      // A copy, since `flat.positions` is transferred to the thread.
       const positions = flat.positions.slice();
       return { ...(await several(flat, options)), positions, featureStarts };
     },

@@ -1,4 +1,4 @@
-// What calls of the C ABI have in common: settings checked, budgets, and where faults lie.
+// What the calls of the C ABI share: checks of settings, budgets, and the place of a fault.
 #pragma once
 #include <cmath>
 
@@ -20,7 +20,7 @@ inline bool isRising(const uint32_t* starts, uint32_t count) {
   return starts[0] == 0;
 }
 
-/// A budget of at most `maxBytes`, not NaN, that reports to the host.
+/// A budget of at most `maxBytes` (not NaN) that reports to the host.
 inline Work hostWork(double maxBytes) {
   const auto report = [](void*, double fraction, double bestCost, double lowerBound) {
     return sf_host_progress(fraction, bestCost, lowerBound) != 0;
@@ -29,7 +29,7 @@ inline Work hostWork(double maxBytes) {
   return Work(maxBytes < most ? size_t(maxBytes) : size_t(-1), report, nullptr);
 }
 
-/// Ends a call: its status, with the place in `where`.
+/// The status to end a call with. Writes the place it is about to `where`.
 inline SfStatus endWith(const Outcome& outcome, SfPlace* where) {
   where->loop = outcome.loop, where->vertex = outcome.vertex;
   where->otherLoop = outcome.otherLoop, where->otherVertex = outcome.otherVertex;

@@ -1,4 +1,4 @@
-// sf_triangulate_polygons: validates what has no meaning to the core, calls it, hands back.
+// sf_triangulate_polygons: refuses input that has no meaning to the core, calls the core, packs the result.
 #include <cstdlib>
 #include <memory>
 
@@ -12,7 +12,7 @@ SF_TIE(isTied, sf::PolygonMethod, SF_METHOD_CHOICES)
 SF_TIE(isTied, sf::Repair, SF_REPAIR_CHOICES)
 SF_TIE(isTied, sf::FloodAction, SF_FLOOD_ACTION_CHOICES)
 
-// Lists of the core that are handed over as they are.
+// Lists of the core's structs become result arrays as they are, so their layouts must agree.
 static_assert(sizeof(sf::FloodStep) == sizeof(SfFloodStep) &&
               offsetof(sf::FloodStep, action) == offsetof(SfFloodStep, action) &&
               offsetof(sf::FloodStep, left) == offsetof(SfFloodStep, left) &&
@@ -29,10 +29,10 @@ static_assert(sizeof(sf::PolygonFault) == sizeof(SfPolygonFault) &&
               inFault(offsetof(sf::Outcome, otherLoop)) == offsetof(SfPolygonFault, otherLoop) &&
               inFault(offsetof(sf::Outcome, otherVertex)) == offsetof(SfPolygonFault, otherVertex));
 
-/// A triangulator that has held no more than this many vertices is kept for the next call.
+/// The triangulator is kept for the next call if it has held no more than this many vertices.
 constexpr uint32_t kMostKept = 1u << 16;
 
-/// Bytes a vertex that the triangulation of a large polygon takes, at least.
+/// The least number of bytes for each vertex that the triangulation of a large polygon takes.
 constexpr size_t kLeastPerVertex = 160;
 
 SfResult* pack(sf::FlatTriangulation&& found) {
@@ -81,16 +81,16 @@ sf::Outcome check(const uint32_t* ringStarts, uint32_t ringCount, const uint32_t
     return {sf::Status::BadOption};
   if (options.trace && (several || options.method != sf::PolygonMethod::Flooding))
     return {sf::Status::BadOption};
-  // Indices of corners are below 2^32.
+  // Indices of corners must stay below 2^32.
   if (uint64_t(ringStarts[ringCount]) + pointCount >= 1u << 29) return {sf::Status::TooLarge};
   return {};
 }
 
-/// Has the memory grow by `bytes` at once, if so many are allowed, and not list by list: hosts collect
-/// their garbage when it grows, which takes longer than a large polygon.
+/// Grows the memory by `bytes` at once, if so many are allowed, and not list by list. Hosts collect their
+/// garbage each time it grows, which takes longer than a large polygon.
 void growOnce(double bytes, double maxBytes) {
   if (bytes > maxBytes || bytes >= 0x1p31) return;
-  void* volatile block = std::malloc(size_t(bytes));  // volatile, or else both calls are left out
+  void* volatile block = std::malloc(size_t(bytes));  // volatile, or compilers drop both calls
   std::free(block);
 }
 

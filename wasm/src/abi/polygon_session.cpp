@@ -14,7 +14,7 @@ struct OpenSession {
   double maxBytes;
 };
 
-/// By number; null where a session has been closed.
+/// The sessions by number; null for one that has been closed.
 std::vector<std::unique_ptr<OpenSession>>& openSessions() {
   static std::vector<std::unique_ptr<OpenSession>> all;
   return all;

@@ -8,7 +8,7 @@
 
 #include "abi/tables.h"
 
-/// The arrays of one of the tables, by name; each is moved in and lives as long as the result.
+/// The arrays of one table, by name. Each is moved in, and lives as long as the result.
 struct SfResult {
   struct Array {
     void* owner = nullptr;
@@ -18,7 +18,7 @@ struct SfResult {
   };
   std::vector<Array> arrays;
 
-  /// With `count` arrays, all of them empty.
+  /// Holds `count` arrays, all of them empty.
   explicit SfResult(size_t count) : arrays(count) {}
   SfResult(const SfResult&) = delete;
   SfResult& operator=(const SfResult&) = delete;
@@ -27,7 +27,7 @@ struct SfResult {
       if (array.destroy) array.destroy(array.owner);
   }
 
-  /// Fills an array, once. Its elements are those of the table, or structs made of them.
+  /// Fills an array, once. Its elements have the table's type, or are structs made of that type.
   template <auto name, class T, class Allocator>
   void put(std::vector<T, Allocator> values) {
     using Element = typename sf::ElementOf<name>::Type;
@@ -38,7 +38,7 @@ struct SfResult {
     using Owner = std::vector<T, Allocator>;
     const auto destroy = [](void* owner) { delete static_cast<Owner*>(owner); };
     auto* owner = new Owner(std::move(values));
-    // The numbers in an element are as large as it is aligned.
+    // A number is as large as the alignment of the element that it is in.
     const size_t numbers = sizeof(T) / alignof(Element);
     arrays[size_t(name)] = {owner, destroy, owner->data(), owner->size() * numbers};
   }

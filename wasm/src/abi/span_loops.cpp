@@ -1,4 +1,4 @@
-// sf_span_loops: validates what has no meaning to the core, calls it, hands back.
+// sf_span_loops: refuses input that has no meaning to the core, calls the core, packs the result.
 #include "abi/host_work.h"
 #include "abi/result.h"
 #include "loops/span.h"
@@ -77,7 +77,7 @@ extern "C" SfStatus sf_span_loops(const double* positions, const uint32_t* start
   *result = nullptr;
   sf::Outcome outcome = checkStarts(starts, loopCount);
   if (outcome.ok()) outcome = checkSettings(*settings);
-  // Counts of numbers, three times as many, are to stay below 2^32.
+  // Counts of vertex numbers, three times as large, must stay below 2^32.
   if (outcome.ok() && (triangleCount >= 1u << 30 || startCount >= 1u << 30))
     outcome = {sf::Status::TooLarge};
   if (!outcome.ok()) return sf::endWith(outcome, where);

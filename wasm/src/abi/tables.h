@@ -1,4 +1,4 @@
-// What the C ABI makes of the tables of soapfilm_tables.h.
+// What the C ABI generates from the tables of soapfilm_tables.h.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +11,8 @@
 #define SF_COUNT_ONE(...) +1
 #define SF_COUNT(table) (0 table(SF_COUNT_ONE))
 
-/// Ties an enum of the core to its table: a value that only one of them has, or that they number
-/// differently, does not compile.
+/// Ties an enum of the core to its table. If only one of them has a value, or if they number it
+/// differently, this does not compile.
 #define SF_TIED(name, value, meaning)                 \
   case Tied::name:                                    \
     static_assert(int(Tied::name) == (value), #name); \
@@ -31,7 +31,7 @@
 
 namespace sf {
 
-/// The type that the table gives a result's array.
+/// The element type that the table gives an array of a result.
 template <auto array>
 struct ElementOf;
 

@@ -19,30 +19,32 @@
 namespace sf {
 namespace {
 
-/// Time within which `auto` takes all triples at once, in predicted nanoseconds of native code; for two
-/// loops less, since on noisy ones the domains that the prediction leaves out take ten times as long.
+/// `auto` takes all triples at once if they are predicted to take no more than this, in nanoseconds of
+/// native code. Less for two loops: on noisy ones, the domains that the prediction leaves out take ten times
+/// as long.
 constexpr double kPatience = 3e8, kPatienceForTwo = 4e7;
-/// Vertices of one loop up to which `auto` takes the `near` space: about a second.
+/// The most vertices of one loop for which `auto` tries to better a surface by near triples: about a second.
 constexpr uint32_t kAutoNear = 2000;
-/// Mean dihedral angle up to which a surface is smooth, so that not much is to be won beyond it for the time
-/// that near triples of large loops take, and up to which it is flat, so that nothing is.
+/// Mean dihedral angles. Up to kSmooth a surface is smooth: not much can be gained for the time that near
+/// triples of large loops take. Up to kFlat it is flat: nothing can be gained.
 constexpr double kSmooth = 0.05, kFlat = 1e-3;
-/// Vertices of one loop and of several beyond which near triples take so long.
+/// The most vertices of one loop, and of several together, for which near triples are quick.
 constexpr uint32_t kQuickNear = 1000, kQuickNearOfMany = 80;
-/// Units of work, some nanoseconds each, that `auto` gives to near triples of loops for which their time is not
-/// known beforehand, in proportion to what the facets took and at least; and to the facets, if nothing is found
-/// among them, where the best so far is wanted.
+/// Units of work, some nanoseconds each, that `auto` allows. Near triples whose time is not known beforehand
+/// get kNearShare times what the facets took, and at least kLeastNear. If the best so far is wanted and there
+/// is a first surface, the facets get kMostFacets for finding one among them.
 constexpr uint64_t kNearShare = 2, kLeastNear = 200'000'000, kMostFacets = 300'000'000;
-/// Vertices of one loop up to which all triples are the quickest where no angles count.
+/// The most vertices of one loop for which all triples are the quickest space if no angles count.
 constexpr uint32_t kPlainPolygon = 1000;
-/// Nearest neighbours of the `near` space, before it is widened.
+/// How many nearest neighbours the `near` space takes: at first, and when it is not widened further.
 constexpr uint32_t kFirstReach = 8, kLastReach = 64;
 /// Candidates beyond which the `near` space is not widened further.
 constexpr double kMostNear = 4e6;
-/// Times that the `near` space of two loops is enlarged around its optimum, at most.
+/// How often the `near` space of two loops is enlarged around its optimum, at most.
 constexpr uint32_t kNearRounds = 3;
-/// Vertices beyond which candidates of earlier rounds stay: it takes half the time again, and where all
-/// triples would take a second finds a surface within 1.02 of their optimum in 19 of 20 cases, not 18.
+/// Beyond this many vertices, the candidates of earlier rounds stay. That takes half as much time again.
+/// Where all triples would take a second, it finds a surface within 1.02 of their optimum in 19 of 20 cases,
+/// not 18.
 constexpr uint32_t kKeepNear = 40;
 
 Outcome checkOptions(const LoopSet& loops, const SpanOptions& options) {
@@ -93,14 +95,14 @@ class Spanning {
     // The cost, a sum over the triangles, has to stay far below infinity.
     if (weights_.costExponent > 960) return {Status::BadWeights};
     const Outcome outcome = runSpace();
-    // What was found stays, unless the caller had the work end and wants nothing unfinished. That a
-    // wider space does not fit is no reason to throw away what a narrower one gave.
+    // A surface that was found is returned, unless the caller ended the work and wants nothing unfinished.
+    // It also stays if a wider space then does not fit into memory.
     const bool isEnded = outcome.status == Status::Stopped && !options_.bestSoFar;
     const bool isFound = best_.get().found && !isEnded;
     if (isFound) {
       result = best_.get();
       if (!work_.going()) {
-        // Wider spaces were not looked at, or not to the end: what is proven holds for all of them.
+        // Wider spaces were not searched to the end, and the bound has to hold for them too.
         const double bound = work_.lowerBound();
         result.optimal = false;
         result.lowerBound = std::min(result.lowerBound, bound);
@@ -131,8 +133,8 @@ class Spanning {
     return runAuto();
   }
 
-  /// All triples while that is quick, else Delaunay facets; then near triples where the facets hold no
-  /// surface, or one that can be bettered.
+  /// All triples if that is quick, else Delaunay facets. Then near triples, if the facets hold no surface, or
+  /// one that can probably be bettered.
   Outcome runAuto() {
     const uint32_t k = unit_.loopCount();
     const double patience = k == 2 ? kPatienceForTwo : kPatience;
@@ -140,7 +142,7 @@ class Spanning {
     if (isQuick && allTriplesFit()) return runAll();
     partShare_ = 0.5;
     if (options_.bestSoFar && k > 1 && !offerFirst()) return {work_.status()};
-    // That facets hold no surface may take for ever to prove: the first one they give ends the allowance.
+    // It may take for ever to prove that the facets hold no surface. The first one found lifts the allowance.
     const uint64_t before = work_.spent();
     if (best_.get().found) work_.beginAllowance(kMostFacets);
     Outcome outcome = runDelaunay();
@@ -152,8 +154,8 @@ class Spanning {
                                                                                        : outcome;
   }
 
-  /// Near triples after facets. For more than two loops, or many vertices, nobody knows how long their optimum
-  /// takes: a surface better than the facets' is then wanted without a proof, too.
+  /// Near triples after facets. For more than two loops, or many vertices, the time for their optimum is
+  /// unknown. A surface that is better than the facets' is then taken without a proof.
   Outcome runNearFor(uint64_t units) {
     if (options_.bestSoFar || hasNearOptimalTriples(unit_, work_) || !best_.get().found)
       return runNear();
@@ -161,11 +163,11 @@ class Spanning {
     work_.beginAllowance(units);
     const Outcome outcome = runNear();
     wantsUnproven_ = false;
-    // What was found is there already.
+    // `best_` already holds what was found.
     return work_.endAllowance() ? Outcome() : outcome;
   }
 
-  /// Whether near triples are likely to hold a surface that is enough better than the one found for their time.
+  /// Whether near triples are likely to hold a surface so much better that it is worth their time.
   bool isNearWorthwhile() const {
     const uint32_t k = unit_.loopCount(), n = unit_.vertexCount();
     if (k == 1 && n > kAutoNear) return false;
@@ -173,7 +175,7 @@ class Spanning {
     return meanBend() > (isQuick ? kFlat : kSmooth);
   }
 
-  /// The cost of the best surface found as an angle: for each of its inner edges, or the largest.
+  /// The cost of the best surface found, as an angle: the mean over its inner edges, or the largest one.
   double meanBend() const {
     const Span& found = best_.get();
     if (options_.objective == Objective::WorstDihedral) return found.cost;
@@ -182,7 +184,7 @@ class Spanning {
     return found.cost / (options_.dihedralWeight * innerEdges);
   }
 
-  /// A surface over the caller's loops, for spaces that are made around one. False when the work ended.
+  /// Finds a surface over the caller's loops, for spaces that are made around one. False if the work ended.
   bool findFirst() {
     if (unit_.loopCount() == 1 || !first_.isEmpty() || !hasFirstSurface(unit_)) return true;
     std::vector<uint32_t> triangles;
@@ -191,7 +193,7 @@ class Spanning {
     return true;
   }
 
-  /// The first surface as an answer. False when the work ended.
+  /// Takes the first surface as an answer. False if the work ended.
   bool offerFirst() {
     beginSpace(Space::Near);
     if (!findFirst()) return false;
@@ -214,7 +216,7 @@ class Spanning {
     return true;
   }
 
-  /// The share of the work that the next space takes: half of what is left, while there are others.
+  /// Begins a space. Its share of the work is half of what is left, while other spaces may follow.
   ///   lowerBound  of the scaled cost, proven from the start
   void beginSpace(Space space, double lowerBound = 0) {
     space_ = space;
@@ -228,8 +230,8 @@ class Spanning {
     return weights_.dihedral > 0 || options_.objective == Objective::WorstDihedral;
   }
 
-  /// One loop without angles in its cost takes all triples in less time than near ones, so that these
-  /// are all.
+  /// Whether all triples take less time than near ones, so that `near` takes them all: for one loop
+  /// without angles in its cost.
   bool isPlainPolygon() const {
     return unit_.loopCount() == 1 && !looksAtAngles() && unit_.vertexCount() <= kPlainPolygon;
   }
@@ -255,7 +257,8 @@ class Spanning {
     return weights;
   }
 
-  /// Weights for surfaces to begin from: a small sum of angles goes with small ones.
+  /// Weights for surfaces to begin from. For the worst angle they weigh the sum of angles: a small sum goes
+  /// with small angles.
   TriangleWeights guidingWeights(ArrayView<const double> normals) const {
     TriangleWeights weights;
     weights.area = weights_.area;
@@ -277,8 +280,8 @@ class Spanning {
     return solve(asGiven(), std::move(triples), {});
   }
 
-  /// One loop over all triples. That has no surface before the optimum: where it takes long, the near
-  /// triples' is what bestSoFar falls back to.
+  /// One loop over all triples. There is no surface before the optimum. So if that takes long, near
+  /// triples give the surface that bestSoFar falls back to.
   Outcome runPolygon() {
     if (options_.bestSoFar && predictedTimeOfAllTriples(unit_) > kPatience && runNear().ok()) {
       Span near = best_.get();
@@ -293,8 +296,8 @@ class Spanning {
     return allTriplesFit() ? solveAllTriples() : Outcome{Status::TooLarge};
   }
 
-  /// No surface over one loop costs less: each loop edge has a triangle, each triangle two of them at
-  /// most. O(n^2).
+  /// A lower bound on the cost of every surface over one loop: each loop edge has a triangle, and a
+  /// triangle has at most two loop edges. O(n^2).
   double boundOfLoopEdges() const {
     if (options_.objective == Objective::WorstDihedral) return 0;
     const uint32_t n = unit_.vertexCount();
@@ -360,15 +363,15 @@ class Spanning {
                  std::move(triples), {});
   }
 
-  /// Candidates are the facets and the triples of near-optimal surfaces; for two loops with angles
-  /// then the optimum among them and those around it, until it gets no better.
+  /// Candidates are the facets and the triples of near-optimal surfaces. For two loops with angles,
+  /// rounds follow with the optimum so far and the triples around it, until it gets no better.
   Outcome runNearOptimal(std::vector<uint32_t> list) {
     const PosedProblem problem = asGiven();
     const TriangleWeights weights = guidingWeights(problem.normals);
     const bool isDone = unit_.loopCount() == 1 || weights.dihedral == 0;
     std::vector<BridgeTrial> trials;
     double before = kInfinity;
-    // The facets' surface is one more candidate, and not where to look: it may be far from the best.
+    // The facets' surface only adds candidates. The search does not begin there: it may be far from the best.
     list.insert(list.end(), seed_.vertices().begin(), seed_.vertices().end());
     seed_ = LoopTriangles(unit_);
     for (uint32_t round = 0;; ++round) {
@@ -445,7 +448,7 @@ class Spanning {
     return {};
   }
 
-  /// Hears of every better surface, and hands it on to the caller.
+  /// Gets every better surface, and passes it on to the caller.
   class Listener final : public SurfaceListener {
    public:
     Listener(Spanning& spanning, const PosedProblem& problem, const CandidateSet& set,
@@ -474,14 +477,14 @@ class Spanning {
     return span;
   }
 
-  /// Tells the caller of a surface that is better than what he knows: wider candidates begin anew, often
-  /// with worse.
+  /// Passes a surface to the caller, if it is better than those before. A wider space begins anew, often with
+  /// worse ones.
   void tell(const Span& span) {
     if (span.cost < toldCost_) options_.onBest(options_.user, span);
     toldCost_ = std::min(toldCost_, span.cost);
   }
 
-  /// The answer of a space.
+  /// Takes the answer of a space.
   void take(const PosedProblem& problem, const CandidateSet& set, const SolvedSurface& surface,
             const std::vector<double>& own) {
     last_ = answer(problem, set, surface, own);
@@ -494,16 +497,16 @@ class Spanning {
   Work& work_;
   LoopSet unit_;  // input_ at unit size
   ScaledWeights weights_;
-  Space space_ = Space::All;  // that is being looked at
-  uint64_t candidates_ = 0;   // of it
+  Space space_ = Space::All;  // the one being searched
+  uint64_t candidates_ = 0;   // in that space
   uint64_t domains_ = 0, minimalSets_ = 0;
   Span last_;                    // of the last space that held a surface
   BestAnswer best_;              // of all spaces
   LoopTriangles first_;          // a surface over unit_ that was there before any search, or none
-  bool wantsUnproven_;           // whether surfaces are of use that are not known to be optimal
+  bool wantsUnproven_;           // whether surfaces without a proof are of use
   LoopTriangles seed_;           // last_ over unit_
-  double toldCost_ = kInfinity;  // of the best surface that the caller has been told of
-  double done_ = 0, partShare_ = 1;  // of the work: what past spaces took, what the next may
+  double toldCost_ = kInfinity;  // cost of the best surface that the caller has got
+  double done_ = 0, partShare_ = 1;  // shares of the work: of past spaces, of the next one
 };
 
 }  // namespace

@@ -20,13 +20,13 @@ struct SpanOptions {
   ArrayView<const double> boundaryNormals;  // [3n] or empty; NaN triple: no face across that edge
   ArrayView<const uint32_t> triangles;      // [3c] for Space::Given
   ArrayView<const double> triangleWeights;  // [c] added to each candidate's weight, or empty
-  /// Several loops: [3m] triangles of an earlier answer to begin from, in the numbers of
-  /// Span::positions; what does not fit any more does no harm.
+  /// Several loops: [3m] triangles of an earlier answer to begin from, with vertex numbers as in
+  /// Span::positions. Triangles that no longer fit do no harm.
   ArrayView<const uint32_t> start;
-  /// Whether the best surface found comes back when the work ends before the optimum is known. For
-  /// that, surfaces are looked for first, which takes some time.
+  /// Whether work that ends before the optimum is known returns the best surface found. The solver
+  /// then looks for surfaces first, which takes some time.
   bool bestSoFar = false;
-  /// With bestSoFar: called with every surface that is better than the one before, or null.
+  /// With bestSoFar: called with every surface that is better than the one before. May be null.
   void (*onBest)(void* user, const Span& best) = nullptr;
   void* user = nullptr;
 };
@@ -34,9 +34,9 @@ struct SpanOptions {
 /// Spans the loops with the surface of least cost among all edge- and vertex-manifold, connected,
 /// orientable surfaces of sphere-with-k-holes topology made of candidate triangles.
 /// `result.found` is false, with status Ok, if the space holds no such surface.
-/// With `bestSoFar`, Stopped and OutOfMemory come back only if no surface was found at all; else the
-/// status is Ok and the surface the best one so far, with `optimal` false.
-/// Checks its input: every Status but NotFound can come back; see the list in base/status.h.
+/// With `bestSoFar`, Stopped and OutOfMemory come back only if no surface was found at all. Otherwise
+/// the status is Ok, and the surface is the best one so far, with `optimal` false.
+/// Checks its input: SF_STATUSES (soapfilm_tables.h) says what can come back; NotFound never does.
 Outcome spanLoops(const LoopSet& loops, const SpanOptions& options, Work& work, Span& result);
 
 }  // namespace sf

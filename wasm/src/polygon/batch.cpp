@@ -11,7 +11,7 @@
 namespace sf {
 namespace {
 
-/// Everything of one call, polygon by polygon.
+/// One call, polygon by polygon.
 class Call {
  public:
   Call(const FlatPolygons& polygons, const PolygonOptions& options,
@@ -97,7 +97,7 @@ Outcome Call::runEach() {
   all_.stripStarts.assign(1, 0);
   all_.polygonStrips.assign(1, 0);
   for (uint32_t p = 0; p < count; ++p) {
-    // A polygon without rings, such as GeoJSON has, is empty.
+    // A polygon without rings is empty; GeoJSON has such.
     if (polygonStarts_[p] < polygonStarts_[p + 1]) {
       const PolygonView view = viewOf(p);
       const Outcome outcome = dimension_ == 3 ? triangulateInSpace(p, view) : triangulate(p, view);
@@ -116,8 +116,9 @@ Outcome Call::triangulate(uint32_t polygon, PolygonView view) {
   return outcome;
 }
 
-/// Where lengths matter, first with coordinates along axes in the plane; these are rounded, so that what
-/// is found wrong there, or is to be repaired, is judged by coordinates that are not.
+/// If lengths matter, this first takes coordinates along axes in the polygon's plane. They are rounded, so
+/// a fault found with them is not trusted. The polygon is then triangulated or repaired with two of its own
+/// coordinates, which are not rounded.
 Outcome Call::triangulateInSpace(uint32_t polygon, PolygonView view) {
   plane_ = planeOf(view.positions.slice(0, 3 * size_t(view.starts[1])));
   PolygonView flat{{}, view.starts, {}};
@@ -136,7 +137,7 @@ Outcome Call::triangulateInSpace(uint32_t polygon, PolygonView view) {
     if (!isFault(outcome.status)) return outcome;
   }
   project(false);
-  // The coordinate left out is the core's to see too.
+  // The triangulator does not see the coordinate that is left out, so it is checked here.
   for (uint32_t r = 0; r + 1 < view.starts.size(); ++r)
     for (uint32_t v = view.starts[r]; v < view.starts[r + 1]; ++v)
       if (!(std::fabs(view.positions[3 * size_t(v) + plane_.dropped]) <= kLargestCoordinate)) {
@@ -147,7 +148,7 @@ Outcome Call::triangulateInSpace(uint32_t polygon, PolygonView view) {
   return triangulate(polygon, flat);
 }
 
-/// Appends what was found of a polygon, its vertices numbered as in the whole input.
+/// Appends the triangulation of a polygon, with vertices numbered as in the whole input.
 void Call::take(uint32_t polygon, const PolygonView& view) {
   const uint32_t base = firstVertex(polygon);
   const uint32_t own = uint32_t(view.positions.size() / 2);

@@ -1,5 +1,4 @@
-// Many polygons at once, in the plane or in space, with what is wrong with each: what a call of the library
-// is about.
+// All polygons of one call of the library, in the plane or in space, and what is wrong with the invalid ones.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -12,18 +11,17 @@
 
 namespace sf {
 
-/// Polygons as flat arrays, which fit each other.
+/// Polygons as flat arrays that fit each other.
 struct FlatPolygons {
-  uint32_t dimension;                    // 2, or 3: each polygon lies near a plane of any tilt
-  ArrayView<const double> positions;     // [dimension * n]
-  ArrayView<const uint32_t> ringStarts;  // [r+1] in vertices, from 0 to n, rising
-  ArrayView<const uint32_t>
-      polygonStarts;               // [p+1] in rings, from 0 to r, rising; one without rings
-                                   // is empty
+  uint32_t dimension;                       // 2, or 3: each polygon lies near a plane of any tilt
+  ArrayView<const double> positions;        // [dimension * n]
+  ArrayView<const uint32_t> ringStarts;     // [r+1] in vertices, from 0 to n, rising
+  ArrayView<const uint32_t> polygonStarts;  // [p+1] in rings, from 0 to r, never falling; a polygon
+                                            // without rings is empty
   ArrayView<const double> points;  // [dimension * q] isolated vertices inside the only polygon
 };
 
-/// Vertices are numbered through all polygons; isolated ones follow, then those that repair added.
+/// Vertices are numbered through all polygons. Isolated ones follow, then those that repair added.
 struct FlatTriangulation {
   std::vector<uint32_t> triangles;       // [3m] counter-clockwise; in space, as the outer ring runs
   std::vector<uint32_t> triangleStarts;  // [p+1] in triangles; an invalid polygon has none
@@ -37,11 +35,11 @@ struct FlatTriangulation {
   std::vector<double> faultPoints;   // [dimension * f] where each fault is, or NaN
 };
 
-/// Triangulates polygons one after the other, each as PolygonTriangulator::triangulate does; those in space
-/// are flattened into a plane of their own first, along an axis, or where lengths matter without distortion.
-///   options  a trace, or isolated vertices, are for one polygon alone
+/// Triangulates polygons one after the other, each as PolygonTriangulator::triangulate does. A polygon in
+/// space is first flattened into a plane of its own: along an axis, or without distortion if lengths matter.
+///   options  with a trace, as with isolated vertices, there may be only one polygon
 ///   result   out: empty before
-/// Fails as a whole only for reasons that no polygon is to blame for: OutOfMemory, TooLarge and Stopped.
+/// The call as a whole fails only with OutOfMemory, TooLarge or Stopped, for which no polygon is to blame.
 /// O(n log n) time, O(n) memory, charged to `work`.
 Outcome triangulateAll(const FlatPolygons& polygons, const PolygonOptions& options,
                        PolygonTriangulator& triangulator, Work& work, FlatTriangulation& result);
