@@ -2,6 +2,8 @@
 // in tests/cpp/long.
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "support/hand_runs.h"
 
 using namespace sftest;
@@ -43,4 +45,33 @@ TEST_CASE("hand-drawn: knots have answers") {
 }
 TEST_CASE("hand-drawn: many small loops have answers") {
   expectHandAnswers(Hand::ManySmall, 1409, 100, 0, kTicksOfMany);
+}
+
+TEST_CASE("hand-drawn: with bestSoFar and without, a call that nobody stops gives the same proof") {
+  Random random(1420);
+  MESSAGE("seed 1420");
+  const Hand kinds[] = {Hand::Stroke, Hand::Pair, Hand::SelfApproaching, Hand::Linked, Hand::Knot};
+  for (int i = 0; i < 60; ++i) {
+    Problem problem = handProblem(kinds[i % 5], 24, random);
+    problem.start.clear();
+    if (problem.options.space == sf::Space::Near) problem.options.space = sf::Space::Auto;
+    const HandRun plain = spanUntil(problem, 1u << 30, false),
+                  watched = spanUntil(problem, 1u << 30);
+    INFO(problem.text());
+    CHECK(plain.fault == "");
+    CHECK(watched.fault == "");
+    REQUIRE(plain.outcome.status == watched.outcome.status);
+    if (!plain.span.found) continue;
+    CHECK(watched.span.cost <= plain.span.cost + 1e-9 * (1 + std::fabs(plain.span.cost)));
+    CHECK((watched.span.optimal || !plain.span.optimal));
+  }
+  // One loop that is large enough for near triples to stand in for all of them.
+  Problem problem;
+  problem.curves = {noisyCircle(295, 0.05, random)};
+  problem.options.space = sf::Space::All;
+  const HandRun plain = spanUntil(problem, 1u << 30, false), watched = spanUntil(problem, 1u << 30);
+  CHECK(watched.fault == "");
+  CHECK(plain.span.optimal);
+  CHECK(watched.span.optimal);
+  CHECK(watched.span.cost == doctest::Approx(plain.span.cost).epsilon(1e-9));
 }

@@ -17,7 +17,8 @@ struct HandRun {
 /// Faults are: a status that no such problem has; an answer or a reported surface that is invalid
 /// (spanFault); an answer dearer than a reported surface; a bound that is not proven at that time,
 /// is below zero though no weight is, falls, or exceeds the answer.
-HandRun spanUntil(const Problem& problem, uint32_t ticks);
+///   bestSoFar  else a call that is stopped has to end with Stopped
+HandRun spanUntil(const Problem& problem, uint32_t ticks, bool bestSoFar = true);
 
 /// A problem with loops of that kind. Its options are drawn at random from all default paths,
 /// spaces and objectives, now and then with faces across the loops and triangles to begin from.

@@ -44,11 +44,19 @@ class Work {
   }
   /// Begins a part of the work: the phases that follow fill the fractions [a, b] of the whole.
   /// Forgets the costs known so far. Costs of this part are reported times 2^costExponent.
-  ///   lowerBound  proven from the start, in the unit of this part
-  void beginPart(double a, double b, int costExponent, double lowerBound = 0) {
+  ///   lowerBound   proven from the start, in the unit of this part
+  ///   keepsBound   whether that is all: bounds of this part do not hold for the caller's problem
+  void beginPart(double a, double b, int costExponent, double lowerBound = 0,
+                 bool keepsBound = false) {
     partStart_ = a, partEnd_ = b, costExponent_ = costExponent;
     best_ = std::numeric_limits<double>::infinity(), lower_ = lowerBound;
+    keepsBound_ = keepsBound;
     phase(0, 1);
+  }
+  /// The best surface of the parts that are over, and the bound that holds for it. Both are reported until
+  /// the current part has a surface that costs no more.
+  void setEarlier(double bestCost, double lowerBound) {
+    earlierBest_ = bestCost, earlierLower_ = lowerBound;
   }
   /// Begins a phase of the current part: `setFraction(0..1)` fills the fractions [a, b] of it.
   void phase(double a, double b) {
@@ -63,7 +71,7 @@ class Work {
   /// Sets the costs known now in this part. The lower bound never falls.
   void setBounds(double bestCost, double lowerBound) {
     best_ = bestCost;
-    if (lowerBound > lower_) lower_ = lowerBound;
+    if (lowerBound > lower_ && !keepsBound_) lower_ = lowerBound;
   }
 
   /// Ends the work, as if stopped, after about `units` more. For work that is of use unfinished:
@@ -97,8 +105,10 @@ class Work {
       status_ = Status::Stopped;
       isPaused_ = true;
     }
-    const double best = std::ldexp(best_, costExponent_), lower = std::ldexp(lower_, costExponent_);
-    if (progress_ && !progress_(user_, fraction_, best, lower)) {
+    const double best = std::ldexp(best_, costExponent_);
+    const bool isBetter = best <= earlierBest_;
+    if (progress_ && !progress_(user_, fraction_, isBetter ? best : earlierBest_,
+                                isBetter ? lowerBound() : earlierLower_)) {
       fail(Status::Stopped);
       isPaused_ = false;
     }
@@ -116,6 +126,8 @@ class Work {
   double fraction_ = 0, partStart_ = 0, partEnd_ = 1, phaseStart_ = 0, phaseEnd_ = 1;
   int costExponent_ = 0;
   double best_ = std::numeric_limits<double>::infinity(), lower_ = 0;
+  bool keepsBound_ = false;
+  double earlierBest_ = std::numeric_limits<double>::infinity(), earlierLower_ = 0;
   Status status_ = Status::Ok;
 };
 

@@ -33,7 +33,10 @@ constexpr uint32_t kQuickNear = 1000, kQuickNearOfMany = 80;
 /// Units of work, some nanoseconds each, that `auto` allows. Near triples whose time is not known beforehand
 /// get kNearShare times what the facets took, and at least kLeastNear. If the best so far is wanted and there
 /// is a first surface, the facets get kMostFacets for finding one among them.
-constexpr uint64_t kNearShare = 2, kLeastNear = 200'000'000, kMostFacets = 300'000'000;
+constexpr uint64_t kNearShare = 2, kLeastNear = 200'000'000, kMostNearUnits = 2'000'000'000;
+constexpr uint64_t kMostFacets = 300'000'000, kMostFacetsUnwatched = 20'000'000'000;
+/// Share of the work that a first surface is.
+constexpr double kShareOfFirst = 0.05;
 /// The most vertices of one loop for which all triples are the quickest space if no angles count.
 constexpr uint32_t kPlainPolygon = 1000;
 /// How many nearest neighbours the `near` space takes: at first, and when it is not widened further.
@@ -97,7 +100,7 @@ class Spanning {
     const Outcome outcome = runSpace();
     // A surface that was found is returned, unless the caller ended the work and wants nothing unfinished.
     // It also stays if a wider space then does not fit into memory.
-    const bool isEnded = outcome.status == Status::Stopped && !options_.bestSoFar;
+    const bool isEnded = work_.status() == Status::Stopped && !options_.bestSoFar;
     const bool isFound = best_.get().found && !isEnded;
     if (isFound) {
       result = best_.get();
@@ -113,7 +116,7 @@ class Spanning {
     }
     result.domains = domains_;
     result.minimalSets = minimalSets_;
-    return isFound ? Outcome() : outcome;
+    return isFound ? Outcome() : isEnded ? Outcome{work_.status()} : outcome;
   }
 
  private:
@@ -141,15 +144,17 @@ class Spanning {
     const bool isQuick = predictedTimeOfAllTriples(unit_) <= patience || isPlainPolygon();
     if (isQuick && allTriplesFit()) return runAll();
     partShare_ = 0.5;
-    if (options_.bestSoFar && k > 1 && !offerFirst()) return {work_.status()};
+    const bool isTimeKnown = k == 1 || (k == 2 && hasNearOptimalTriples(unit_, work_));
+    if (k > 1 && (options_.bestSoFar || !isTimeKnown) && !offerFirst()) return {work_.status()};
     // It may take for ever to prove that the facets hold no surface. The first one found lifts the allowance.
     const uint64_t before = work_.spent();
-    if (best_.get().found) work_.beginAllowance(kMostFacets);
+    if (best_.get().found)
+      work_.beginAllowance(options_.bestSoFar ? kMostFacets : kMostFacetsUnwatched);
     Outcome outcome = runDelaunay();
     if (work_.endAllowance()) outcome = {Status::NotFound};
     const uint64_t spent = work_.spent() - before;
     if (outcome.status == Status::NotFound || (outcome.ok() && isNearWorthwhile()))
-      outcome = runNearFor(std::max(kLeastNear, kNearShare * spent));
+      outcome = runNearFor(std::clamp(kNearShare * spent, kLeastNear, kMostNearUnits));
     return outcome.status == Status::NotFound && !best_.get().found && allTriplesFit() ? runAll()
                                                                                        : outcome;
   }
@@ -195,7 +200,9 @@ class Spanning {
 
   /// Takes the first surface as an answer. False if the work ended.
   bool offerFirst() {
+    partShare_ = kShareOfFirst;
     beginSpace(Space::Near);
+    partShare_ = 0.5;
     if (!findFirst()) return false;
     if (first_.isEmpty()) return true;
     const PosedProblem problem = asGiven();
@@ -212,7 +219,7 @@ class Spanning {
     std::iota(order.begin(), order.end(), 0u);
     if (!isSurface(unit_, set, order)) return true;
     take(problem, set, {order, false, 0}, {});
-    if (options_.onBest) tell(last_);
+    if (listens()) tell(last_);
     return true;
   }
 
@@ -222,7 +229,8 @@ class Spanning {
     space_ = space;
     const double end = done_ + partShare_ * (1 - done_);
     const bool isSum = options_.objective == Objective::Sum;
-    work_.beginPart(done_, end, isSum ? weights_.costExponent : 0, lowerBound);
+    work_.beginPart(done_, end, isSum ? weights_.costExponent : 0,
+                    isStandIn_ ? standInBound_ : lowerBound, isStandIn_);
     done_ = end;
   }
 
@@ -283,20 +291,18 @@ class Spanning {
   /// One loop over all triples. There is no surface before the optimum. So if that takes long, near
   /// triples give the surface that bestSoFar falls back to.
   Outcome runPolygon() {
-    if (options_.bestSoFar && predictedTimeOfAllTriples(unit_) > kPatience && runNear().ok()) {
-      Span near = best_.get();
-      near.space = Space::All;
-      near.optimal = false;
-      near.lowerBound = std::min(boundOfLoopEdges(), near.cost);
-      best_ = BestAnswer(options_.objective);
-      best_.offer(near);
+    if (options_.bestSoFar && predictedTimeOfAllTriples(unit_) > kPatience) {
+      isStandIn_ = true;
+      standInBound_ = boundOfLoopEdges();
+      runNear();
+      isStandIn_ = false;
     }
     partShare_ = 1;
     beginSpace(Space::All);
     return allTriplesFit() ? solveAllTriples() : Outcome{Status::TooLarge};
   }
 
-  /// A lower bound on the cost of every surface over one loop: each loop edge has a triangle, and a
+  /// A lower bound, by weights_, on the cost of every surface over one loop: each loop edge has a triangle, and a
   /// triangle has at most two loop edges. O(n^2).
   double boundOfLoopEdges() const {
     if (options_.objective == Objective::WorstDihedral) return 0;
@@ -313,7 +319,7 @@ class Spanning {
       }
       sum += 0.5 * least;
     }
-    return weights_.cost(sum);
+    return sum;
   }
 
   Outcome solveAllTriples() {
@@ -372,7 +378,8 @@ class Spanning {
     std::vector<BridgeTrial> trials;
     double before = kInfinity;
     // The facets' surface only adds candidates. The search does not begin there: it may be far from the best.
-    list.insert(list.end(), seed_.vertices().begin(), seed_.vertices().end());
+    for (const LoopTriangles* known : {&seed_, &first_})
+      list.insert(list.end(), known->vertices().begin(), known->vertices().end());
     seed_ = LoopTriangles(unit_);
     for (uint32_t round = 0;; ++round) {
       std::vector<uint32_t> triples;
@@ -435,7 +442,7 @@ class Spanning {
     solving.objective = options_.objective;
     solving.anytime = wantsUnproven_;
     solving.start = &start;
-    solving.listener = options_.bestSoFar ? &listener : nullptr;
+    solving.listener = &listener;
     const uint64_t before = work_.used();
     const bool done = buildCandidateSet(problem.loops, weights, std::move(triples), work_, set) &&
                       solveSurface(problem.loops, set, solving, work_, surface);
@@ -455,8 +462,9 @@ class Spanning {
              const std::vector<double>& own)
         : spanning_(spanning), problem_(problem), set_(set), own_(own) {}
     void better(const SplitOrder& order, double lowerBound) override {
-      if (spanning_.space_ == Space::Delaunay) spanning_.work_.endAllowance();
-      if (!spanning_.options_.onBest) return;
+      if (spanning_.space_ == Space::Delaunay && spanning_.work_.going())
+        spanning_.work_.endAllowance();
+      if (!spanning_.listens()) return;
       spanning_.tell(spanning_.answer(problem_, set_, {order, false, lowerBound}, own_));
     }
 
@@ -474,8 +482,16 @@ class Spanning {
     span.candidates = candidates_;
     span.domains = domains_;
     span.minimalSets = minimalSets_;
+    if (isStandIn_) {
+      span.space = Space::All;
+      span.optimal = false;
+      span.lowerBound = std::min(weights_.cost(standInBound_), span.cost);
+    }
     return span;
   }
+
+  /// Whether the caller wants surfaces on the way.
+  bool listens() const { return options_.bestSoFar && options_.onBest; }
 
   /// Passes a surface to the caller, if it is better than those before. A wider space begins anew, often with
   /// worse ones.
@@ -490,6 +506,7 @@ class Spanning {
     last_ = answer(problem, set, surface, own);
     seed_ = problem.ontoInput(last_.triangles, unit_);
     best_.offer(last_);
+    work_.setEarlier(best_.get().cost, best_.get().lowerBound);
   }
 
   const LoopSet& input_;
@@ -505,6 +522,8 @@ class Spanning {
   LoopTriangles first_;          // a surface over unit_ that was there before any search, or none
   bool wantsUnproven_;           // whether surfaces without a proof are of use
   LoopTriangles seed_;           // last_ over unit_
+  bool isStandIn_ = false;       // whether near triples stand in for all of them,
+  double standInBound_ = 0;      // and what then is a lower bound over all, by weights_
   double toldCost_ = kInfinity;  // cost of the best surface that the caller has got
   double done_ = 0, partShare_ = 1;  // shares of the work: of past spaces, of the next one
 };
@@ -513,6 +532,10 @@ class Spanning {
 
 Outcome spanLoops(const LoopSet& loops, const SpanOptions& options, Work& work, Span& result) {
   result = {};
+  double least = 0;
+  if (options.space == Space::Given && options.objective == Objective::Sum)
+    for (const double w : options.triangleWeights) least += std::min(0.0, w);
+  work.beginPart(0, 1, 0, least);
   Outcome outcome = checkLoops(loops, true, work);
   if (outcome.ok()) outcome = checkOptions(loops, options);
   if (outcome.ok()) outcome = Spanning(loops, options, work).run(result);

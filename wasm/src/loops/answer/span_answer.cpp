@@ -45,7 +45,9 @@ Span answerOf(const LoopSet& input, const ScaledWeights& weights, Objective obje
 }
 
 void BestAnswer::offer(const Span& answer) {
-  const double tie = objective_ == Objective::WorstDihedral ? kAngleTie : 0;
+  // Sums in another order differ in the last digits.
+  const double tie =
+      objective_ == Objective::WorstDihedral ? kAngleTie : 1e-12 * std::fabs(best_.cost);
   const bool isCheaper = answer.cost < best_.cost - tie;
   const bool isTied = answer.cost <= best_.cost + tie && (answer.optimal || !best_.optimal);
   if (!best_.found || isCheaper || isTied) best_ = answer;
