@@ -67,7 +67,7 @@ export interface CandidateList {
  * @param fraction share of the work done, 0 to 1, never falling
  * @param bestCost cost of the best surface so far, `Infinity` while there is none
  * @param lowerBound proven lower bound on the optimal cost. It is 0 at first, or less if candidates have
- *   negative weights, and starts again with each space that `'auto'` tries
+ *   negative weights. With `'auto'` it is about the space that the best surface so far is from
  */
 export type ProgressListener = (fraction: number, bestCost: number, lowerBound: number) => void;
 
@@ -101,7 +101,8 @@ export interface SpanOptions {
    *   2000 vertices. If none of these spaces holds a surface, all triples are tried, if they fit into
    *   memory. The answer is the cheapest surface of all spaces tried; `candidates` names its space. For
    *   more than two loops, and for two of more than about 120 vertices together, a better surface from
-   *   near triples may come without a proof, with `optimal: false`.
+   *   near triples may come without a proof, with `optimal: false`. So it is if the facets hold no surface
+   *   within some 20 seconds of work.
    */
   readonly candidates?: CandidateSpace | CandidateList;
   /**
