@@ -20,7 +20,7 @@ TEST_CASE("hand-drawn: single strokes have answers") {
   expectHandAnswers(Hand::Stroke, 1400, 250, 330, kTicks);
 }
 TEST_CASE("hand-drawn: pairs of strokes have answers") {
-  expectHandAnswers(Hand::Pair, 1401, 200, 160, kTicks);
+  expectHandAnswers(Hand::Pair, 1401, 250, 160, kTicks);
 }
 TEST_CASE("hand-drawn: more pairs of strokes have answers") {
   expectHandAnswers(Hand::Pair, 1402, 200, 160, kTicks);
@@ -44,7 +44,7 @@ TEST_CASE("hand-drawn: knots have answers") {
   expectHandAnswers(Hand::Knot, 1408, 150, 330, kTicks);
 }
 TEST_CASE("hand-drawn: many small loops have answers") {
-  expectHandAnswers(Hand::ManySmall, 1409, 100, 0, kTicksOfMany);
+  expectHandAnswers(Hand::ManySmall, 1409, 50, 0, kTicksOfMany);
 }
 
 TEST_CASE("hand-drawn: with bestSoFar and without, a call that nobody stops gives the same proof") {
