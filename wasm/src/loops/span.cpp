@@ -193,7 +193,7 @@ class Spanning {
   bool findFirst() {
     if (unit_.loopCount() == 1 || !first_.isEmpty() || !hasFirstSurface(unit_)) return true;
     std::vector<uint32_t> triangles;
-    if (!firstSurface(unit_, guidingWeights({}), work_, triangles)) return false;
+    if (!firstSurface(unit_, guidingWeights(asGiven()), work_, triangles)) return false;
     first_ = LoopTriangles(unit_, triangles);
     return true;
   }
@@ -267,12 +267,9 @@ class Spanning {
 
   /// Weights for surfaces to begin from. For the worst angle they weigh the sum of angles: a small sum goes
   /// with small angles.
-  TriangleWeights guidingWeights(ArrayView<const double> normals) const {
-    TriangleWeights weights;
-    weights.area = weights_.area;
-    weights.perimeter = weights_.perimeter;
-    weights.dihedral = options_.objective == Objective::WorstDihedral ? 1 : weights_.dihedral;
-    weights.normals = normals;
+  TriangleWeights guidingWeights(const PosedProblem& problem) const {
+    TriangleWeights weights = triangleWeights(problem, {});
+    if (options_.objective == Objective::WorstDihedral) weights.dihedral = 1;
     return weights;
   }
 
@@ -373,7 +370,7 @@ class Spanning {
   /// rounds follow with the optimum so far and the triples around it, until it gets no better.
   Outcome runNearOptimal(std::vector<uint32_t> list) {
     const PosedProblem problem = asGiven();
-    const TriangleWeights weights = guidingWeights(problem.normals);
+    const TriangleWeights weights = guidingWeights(problem);
     const bool isDone = unit_.loopCount() == 1 || weights.dihedral == 0;
     std::vector<BridgeTrial> trials;
     double before = kInfinity;

@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
+#include "base/sort.h"
 #include "loops/solver.h"
 #include "support/generators.h"
 #include "support/surface.h"
@@ -126,4 +129,41 @@ TEST_CASE("surface search: begins from the bridges of a surface that edits have 
   for (uint32_t& v : triangles) v = random.below(32);
   REQUIRE(again.startFrom({after.loops, triangles}));
   CHECK(found.cost() < 1.3 * best.cost());
+}
+
+TEST_CASE("surface search: knows surfaces of the class from lists of candidates that are none") {
+  Random random(303);
+  MESSAGE("seed 303");
+  int good = 0, bad = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Prepared p = prepared(regularSaddles(2 + uint32_t(i) % 3, 5, random), 0, 1);
+    Work work;
+    const Task task{p.loops, p.set, p.set.weight, Measure::sum(1), work, true};
+    Incumbent best(task.measure, nullptr);
+    SurfaceSearch search(task, best);
+    REQUIRE(search.search(20));
+    if (best.cost() == kInfinity) continue;
+    for (uint32_t changes = 0; changes < 4; ++changes) {
+      SplitOrder order = best.order();
+      for (uint32_t c = 0; c < changes; ++c)
+        order[random.below(uint32_t(order.size()))] = random.below(uint32_t(p.set.size()));
+      sf::sort(order.begin(), order.end());
+      if (std::adjacent_find(order.begin(), order.end()) != order.end()) continue;
+      const bool found = isSurface(p.loops, p.set, order);
+      if (changes == 0) CHECK(found);
+      if (found) {
+        std::vector<uint32_t> triangles;
+        for (const uint32_t t : order)
+          triangles.insert(triangles.end(), &p.set.triangles[3 * size_t(t)],
+                           &p.set.triangles[3 * size_t(t)] + 3);
+        CHECK(spanFault(p.loops, p.options, spanOf(p.loops, p.options, triangles)) == "");
+      }
+      (found ? good : bad) += 1;
+    }
+    SplitOrder fewer = best.order();
+    fewer.pop_back();
+    CHECK_FALSE(isSurface(p.loops, p.set, fewer));
+  }
+  CHECK(good > 20);
+  CHECK(bad > 20);
 }
