@@ -31,8 +31,8 @@ constexpr double kSmooth = 0.05, kFlat = 1e-3;
 /// The most vertices of one loop, and of several together, for which near triples are quick.
 constexpr uint32_t kQuickNear = 1000, kQuickNearOfMany = 80;
 /// Units of work, some nanoseconds each, that `auto` allows. Near triples whose time is not known beforehand
-/// get kNearShare times what the facets took, and at least kLeastNear. If the best so far is wanted and there
-/// is a first surface, the facets get kMostFacets for finding one among them.
+/// get kNearShare times what the facets took, from kLeastNear to kMostNearUnits. If there is a first surface,
+/// the facets get kMostFacets for finding one among them, or kMostFacetsUnwatched without bestSoFar.
 constexpr uint64_t kNearShare = 2, kLeastNear = 200'000'000, kMostNearUnits = 2'000'000'000;
 constexpr uint64_t kMostFacets = 300'000'000, kMostFacetsUnwatched = 20'000'000'000;
 /// Share of the work that a first surface is.
