@@ -1,20 +1,53 @@
 import { defineConfig } from 'vite';
 
 /**
- * Drops three's animation classes, 6 KB that nothing on the page uses: bundlers keep them for the constants that
- * three assigns to them. Whoever begins to animate with three removes this; until then the build says so.
+ * Drops from three what nothing on the page uses but bundlers must keep, 30 KB gzipped: shaders of lit materials and
+ * of shadows (the page's own materials bring their shaders; `MeshBasicMaterial` and lines still work), virtual
+ * reality, and animation classes. Whoever begins to use one of these takes its line away; until then the build says so.
  */
-const withoutAnimation = {
-  name: 'without-animation',
+const kUnused = [
+  {
+    what: 'lit materials',
+    from: /^(const|var) (?:lights_|shadowm|transmission_|iridescence_|clearcoat_|lightprobes_|envmap_physical_|bsdfs)\w* = "(?:[^"\\]|\\.)*";$/gm,
+    used: /\.type\s*=\s*["'`]Mesh(Lambert|Phong|Standard|Physical|Toon|Matcap|Normal)Material/,
+  },
+  {
+    what: 'lit materials',
+    from: /^(const|var) (?:vertex|fragment)\$\w+ = "#define (?:LAMBERT|PHONG|STANDARD|TOON|MATCAP|NORMAL)\\n(?:[^"\\]|\\.)*";$/gm,
+  },
+  {
+    what: 'virtual reality',
+    from: /(?<=^class WebXRManager extends EventDispatcher \{\n)[\s\S]*?(?=^\}\n)/m,
+    to: `
+      enabled = false;
+      isPresenting = false;
+      getEnvironmentBlendMode() {}
+      setAnimationLoop() {}
+      dispose() {}
+    `,
+    used: /\.xr\.enabled\s*=\s*(true|!0)/,
+  },
+  {
+    what: 'animation',
+    from: /^(\w*KeyframeTrack|PropertyBinding)\.[\w.]+ = [^;]*;$/gm,
+    used: /THREE\.(KeyframeTrack|PropertyBinding)/,
+  },
+];
+
+const leanThree = {
+  name: 'lean-three',
   apply: 'build',
   transform(code, id) {
-    if (!id.endsWith('/three.core.js')) return null;
-    return { code: code.replace(/^(\w*KeyframeTrack|PropertyBinding)\.[\w.]+ = [^;]*;$/gm, ''), map: null };
+    if (!/\/three\.(core|module)\.js$/.test(id)) return null;
+    let lean = code;
+    for (const { from, to } of kUnused) {
+      lean = lean.replace(from, (found, keyword) => to ?? (/^(const|var)$/.test(keyword) ? `${found.split(' = ')[0]} = "";` : ''));
+    }
+    return { code: lean, map: null };
   },
   renderChunk(code) {
-    if (/THREE\.(KeyframeTrack|PropertyBinding)/.test(code)) {
-      this.error("three's animation is used: remove `withoutAnimation` from vite.config.js");
-    }
+    const again = kUnused.find(({ used }) => used?.test(code));
+    if (again) this.error(`three's ${again.what} is used: remove it from \`kUnused\` in vite.config.js`);
   },
 };
 
@@ -22,7 +55,7 @@ const withoutAnimation = {
 export default defineConfig({
   root: 'web',
   base: './',
-  plugins: [withoutAnimation],
+  plugins: [leanThree],
   oxc: { jsx: { runtime: 'automatic', importSource: 'preact' } },
   build: {
     outDir: 'dist',
