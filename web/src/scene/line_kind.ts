@@ -1,0 +1,164 @@
+// Kinds of objects that are closed lines with their points as handles: curves, polygons with holes.
+import { Group, type Object3D } from 'three';
+import { boxOfLines, lineCount, lineOf, moved, nextPoint, pointAt, pointCount, readLines, type Lines } from '../shapes/lines.ts';
+import type { Item, Place } from '../state/document.ts';
+import { Dots } from './dots.ts';
+import { distanceOf, distanceToSegment, type Eye, type Spot } from './eye.ts';
+import { FatLines, segmentsOf } from './fat_line.ts';
+import type { Drawn, DrawnKind, Hit, Layer, Marks } from './kind.ts';
+
+/** How lines and handles look, in CSS pixels. */
+export interface LineStyle {
+  readonly width: number;
+  readonly chosenWidth: number;
+  readonly dot: number;
+  readonly chosenDot: number;
+  readonly hoverDot: number;
+  readonly hasRim: boolean;
+  /** More handles than this are shown only where they are marked. */
+  readonly mostDots: number;
+}
+
+interface LineKindOptions {
+  readonly name: string;
+  readonly dim: 2 | 3;
+  readonly style: LineStyle;
+  /** The points that a place stands for when it is moved. */
+  readonly pointsAt: (lines: Lines, place: Place) => Iterable<number>;
+  readonly remove: (lines: Lines, places: readonly Place[]) => Lines | null;
+}
+
+/** A line's reach, as a share of a handle's. */
+const kLineReach = 0.6;
+
+export function lineKind({ name, dim, style, pointsAt, remove }: LineKindOptions): DrawnKind<Lines> {
+  return {
+    name,
+    boxOf: boxOfLines,
+    partStarts: ({ starts }) => starts,
+    handleAt: pointAt,
+    move: (lines, places, by) => moved(lines, new Set(places.flatMap((place) => [...pointsAt(lines, place)])), by),
+    remove,
+    read: (saved) => readLines(dim, saved),
+    pick: pickLines,
+    makeLayer: () => new LinesLayer(style),
+  };
+}
+
+/** The points of a line. */
+export function pointsOfLine({ starts }: Lines, line: number): number[] {
+  return Array.from({ length: starts[line + 1] - starts[line] }, (_, i) => starts[line] + i);
+}
+
+export function pickLines(lines: Lines, eye: Eye, at: Spot, reach: number): Hit | null {
+  const projected = Array.from({ length: pointCount(lines) }, (_, i) => eye.project(pointAt(lines, i)));
+  let best: Hit | null = null;
+  projected.forEach((p, i) => {
+    const distance = p.visible ? distanceOf(p, at) : Infinity;
+    if (distance < (best?.distance ?? reach)) best = { part: lineOf(lines, i), handle: i, distance };
+  });
+  if (best !== null) return best;
+  for (let line = 0; line < lineCount(lines); line++) {
+    for (let i = lines.starts[line]; i < lines.starts[line + 1]; i++) {
+      const [a, b] = [projected[i], projected[nextPoint(lines, line, i)]];
+      const distance = a.visible && b.visible ? distanceToSegment(at, a, b) / kLineReach : Infinity;
+      if (distance < ((best as Hit | null)?.distance ?? reach)) best = { part: line, handle: null, distance };
+    }
+  }
+  return best;
+}
+
+const linesIn = (item: Item): Lines => item.shape as Lines;
+
+class LinesLayer implements Layer {
+  readonly object: Object3D = new Group();
+  private readonly all = new FatLines();
+  private readonly marked = new FatLines();
+  private readonly dots: Dots;
+  /** What `all` shows, and how. */
+  private shown: { items: readonly Item[]; drawn: Drawn } | null = null;
+
+  constructor(private readonly style: LineStyle) {
+    this.dots = new Dots(style.hasRim);
+    this.object.add(this.all.object, this.marked.object, this.dots.object);
+  }
+
+  update(items: readonly Item[], marks: Marks, drawn: Drawn): void {
+    const { curves } = drawn.theme;
+    const { shown } = this;
+    const isSame = shown?.drawn.placement === drawn.placement && shown.drawn.theme === drawn.theme && areSame(shown.items, items);
+    if (!isSame) {
+      this.all.clear();
+      this.all.put(segmentsOf(items.map(linesIn), drawn.placement), { color: curves.line, width: this.style.width });
+      this.shown = { items, drawn };
+    }
+    this.markLines(items, marks, drawn);
+    this.markPoints(items, marks, drawn);
+  }
+
+  private markLines(items: readonly Item[], { selection, hover, faults }: Marks, { placement, theme }: Drawn): void {
+    const { curves } = theme;
+    const { width, chosenWidth } = this.style;
+    this.marked.clear();
+    const find = ({ item: id }: Place) => items.find((item) => item.id === id);
+    const mark = (place: Place, color: string, lineWidth: number, order: number): void => {
+      const item = find(place);
+      if (item) this.marked.put(segmentsOf([lineIn(linesIn(item), place.part)], placement), { color, width: lineWidth, order });
+    };
+    if (hover) mark(hover, curves.line, chosenWidth, 0);
+    for (const place of selection) mark(place, curves.selected, chosenWidth, 1);
+    for (const { place, isEdge } of faults) {
+      const item = find(place);
+      if (!item) continue;
+      if (place.handle === null) mark(place, curves.fault, chosenWidth, 1);
+      else if (isEdge) {
+        const edge = edgeIn(linesIn(item), place.part, place.handle);
+        if (edge) this.marked.put(segmentsOf([edge], placement), { color: curves.fault, width: width + 3, isOnTop: true, order: 1 });
+      }
+    }
+  }
+
+  private markPoints(items: readonly Item[], marks: Marks, { placement, pixelRatio, theme }: Drawn): void {
+    const { curves } = theme;
+    const { dot, chosenDot, hoverDot, mostDots } = this.style;
+    const dots = this.dots.begin(placement);
+    const count = items.reduce((sum, item) => sum + pointCount(linesIn(item)), 0);
+    if (marks.vertices && count <= mostDots) {
+      for (const item of items) {
+        const lines = linesIn(item);
+        for (let line = 0; line < lineCount(lines); line++) {
+          const isChosen = marks.selection.some((place) => place.item === item.id && place.part === line);
+          for (const i of pointsOfLine(lines, line)) dots.put(pointAt(lines, i), isChosen ? curves.selected : curves.line, dot);
+        }
+      }
+    }
+    const mark = (place: Place | null, color: string, diameter: number): void => {
+      if (place === null || place.handle === null) return;
+      const item = items.find(({ id }) => id === place.item);
+      if (item && place.handle < pointCount(linesIn(item))) dots.put(pointAt(linesIn(item), place.handle), color, diameter);
+    };
+    mark(marks.hover, curves.selected, hoverDot);
+    for (const place of marks.selection) mark(place, curves.selected, chosenDot);
+    for (const { place, isEdge } of marks.faults) if (!isEdge) mark(place, curves.fault, chosenDot + 1);
+    this.dots.show(pixelRatio, curves.rim);
+  }
+}
+
+function areSame(a: readonly Item[], b: readonly Item[]): boolean {
+  return a.length === b.length && a.every((item, i) => item.shape === b[i].shape);
+}
+
+/** One line of several, by itself. */
+function lineIn(lines: Lines, line: number): Lines {
+  const { dim, positions, starts } = lines;
+  const [from, to] = [starts[line] ?? 0, starts[line + 1] ?? 0];
+  return { dim, positions: positions.subarray(dim * from, dim * to), starts: new Uint32Array([0, to - from]) };
+}
+
+/** The edge from a point to the next in its line, there and back. */
+function edgeIn(lines: Lines, line: number, i: number): Lines | null {
+  const { dim, positions, starts } = lines;
+  if (line + 1 >= starts.length || i >= starts[line + 1]) return null;
+  const ends = [i, nextPoint(lines, line, i)].flatMap((v) => [...positions.subarray(dim * v, dim * (v + 1))]);
+  return { dim, positions: new Float64Array(ends), starts: new Uint32Array([0, 2]) };
+}
