@@ -2,7 +2,7 @@
 import { effect } from '@preact/signals';
 import { reserveIds, type Document } from './document.ts';
 import type { Problem } from './draft_reading.ts';
-import { claimSlot, saveDraft, type Browser, type Claim } from './draft_slots.ts';
+import { claimSlot, saveDraft, setAside, type Browser, type Claim } from './draft_slots.ts';
 import type { History } from './history.ts';
 import { complain, say } from './notice.ts';
 
@@ -16,6 +16,8 @@ export interface Drafts {
   readonly keep: () => void;
   /** Stores the document as it is, without waiting for a gesture's end: the page may be about to go. */
   readonly flush: () => void;
+  /** Stores a copy that stays as it is, if anything is stored: not all of it could be read. Never rejects. */
+  readonly setAside: () => Promise<void>;
 }
 
 /** Storage that has not answered by then is not waited for. */
@@ -44,12 +46,12 @@ export function createDrafts(browser: Browser, history: Pick<History, 'doc' | 'i
       complain(`This browser keeps no draft: ${reasonOf(error)}. Save files to keep your work.`, 'draft');
     }
   };
-  const save = latestOnly(write);
-  const isDue = (): boolean => doc.peek() !== stored && (isDraft || canUndo.peek());
-  const store = (by: (next: Document) => void): void => {
+  const writes = latestOnly(write);
+  const storeIfDue = (): void => {
+    if (doc.peek() === stored || !(isDraft || canUndo.peek())) return;
     isDraft = true;
     stored = doc.peek();
-    by(stored);
+    writes.add(stored);
   };
 
   return {
@@ -76,11 +78,15 @@ export function createDrafts(browser: Browser, history: Pick<History, 'doc' | 'i
       effect(() => {
         // Both are read, so that the effect follows both.
         const [, live] = [doc.value, isLive.value];
-        if (!live && isDue()) store(save);
+        if (!live) storeIfDue();
       });
     },
     flush() {
-      if (isDue()) store((next) => void write(next));
+      storeIfDue();
+      writes.hurry();
+    },
+    async setAside() {
+      await setAside(browser, slot).catch(() => undefined);
     },
   };
 }
@@ -91,22 +97,34 @@ function remarkOn({ from, areAllHeld, problem }: Claim, knowsTabs: boolean): voi
   else if (from === 'copy' && knowsTabs) say('This tab has a copy of the drawing in the other tab. Each keeps its own from now on.', 'draft');
 }
 
-/** Calls one after the other; of those that come in the meantime only the latest. */
-export function latestOnly<T>(call: (value: T) => Promise<void>): (value: T) => void {
+interface Latest<T> {
+  readonly add: (value: T) => void;
+  /** Calls with what still waits, at once. */
+  readonly hurry: () => void;
+}
+
+/** Calls one after the other; of the values that come in the meantime only with the latest. */
+export function latestOnly<T>(call: (value: T) => Promise<void>): Latest<T> {
   let isUnderWay = false;
-  let next: { readonly value: T } | null = null;
+  let waiting: { readonly value: T } | null = null;
+  const callNext = (): Promise<void> | null => {
+    const next = waiting;
+    waiting = null;
+    return next && call(next.value);
+  };
   const run = async (): Promise<void> => {
     isUnderWay = true;
-    while (next !== null) {
-      const { value }: { readonly value: T } = next;
-      next = null;
-      await call(value);
-    }
+    for (let now = callNext(); now !== null; now = callNext()) await now;
     isUnderWay = false;
   };
-  return (value) => {
-    next = { value };
-    if (!isUnderWay) void run();
+  return {
+    add(value) {
+      waiting = { value };
+      if (!isUnderWay) void run();
+    },
+    hurry() {
+      void callNext();
+    },
   };
 }
 

@@ -99,14 +99,19 @@ async function holds({ hold }: Browser, slot: string, waitMs = 0): Promise<boole
 }
 
 /** Reads the draft of a slot that this tab holds; one that cannot be read is set aside, and never destroyed. */
-async function take({ store, now }: Browser, slot: string): Promise<{ doc: Document | null; problem: Problem | null }> {
-  const stored = await store.get(keyOf(slot));
-  const found = readDraft(stored);
+async function take(browser: Browser, slot: string): Promise<{ doc: Document | null; problem: Problem | null }> {
+  const found = readDraft(await browser.store.get(keyOf(slot)));
   if (found === null) return { doc: null, problem: null };
   if ('doc' in found) return { doc: found.doc, problem: null };
-  await store.set(`aside ${slot} ${now()}`, stored);
-  await store.del(keyOf(slot));
+  await setAside(browser, slot);
+  await browser.store.del(keyOf(slot));
   return { doc: null, problem: found.problem };
+}
+
+/** Stores a copy of a draft where it stays as it is. */
+export async function setAside({ store, now }: Browser, slot: string): Promise<void> {
+  const stored = await store.get(keyOf(slot));
+  if (stored !== undefined) await store.set(`aside ${slot} ${now()}`, stored);
 }
 
 interface Dated {

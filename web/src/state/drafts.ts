@@ -62,6 +62,7 @@ function holdLock(locks: LockManager, name: string, waitMs: number): Promise<boo
 const drafts = createDrafts(thisBrowser(), page);
 
 export const restoreDraft = drafts.restore;
+export const setDraftAside = drafts.setAside;
 
 /** Stores the document whenever it has changed, and when the page is hidden or left. */
 export function keepDrafts(): void {
