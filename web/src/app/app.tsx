@@ -1,17 +1,32 @@
-// The page: the bar at the top, the modes below it, dialogs.
-import { useEffect, useState } from 'preact/hooks';
+// The page: the bar at the top, the scene with all that floats over it, the panel beside it, dialogs.
+import { useId, useState } from 'preact/hooks';
 import type { Stage } from '../scene/stage.ts';
-import { openFile } from '../state/files.ts';
-import { doc, mode } from '../state/store.ts';
-import { IconButton } from './bars.tsx';
+import { group, tool } from '../state/store.ts';
+import type { Action } from './actions.ts';
+import { ActionButton, ExportMenu, HistoryButtons, IconButton, inBar, ToolBar, ViewBar } from './bars.tsx';
+import { Busy } from './busy.tsx';
 import { Dialogs, openDialog } from './dialogs.tsx';
-import { FilmMode, FilmNav } from './film.tsx';
-import { Logo } from './icons.tsx';
-import { ModeSwitch, polygonModule } from './modes.tsx';
+import { DropZone } from './drop_zone.tsx';
+import { FaultLabels } from './fault_labels.tsx';
+import { openFiles } from './files.ts';
+import { Gizmo } from './gizmo.tsx';
+import { Icon, Logo } from './icons.tsx';
+import type { Mode, Room } from './mode.ts';
+import { ModeSwitch } from './mode_switch.tsx';
+import { OpenButton } from './open_button.tsx';
+import { allModes, current, goTo } from './rooms.ts';
+import { Toast } from './toast.tsx';
 
-export function App({ stage, scene }: { stage: Stage; scene: HTMLElement }) {
-  const polygons = polygonModule.value;
-  const isFilm = mode.value === 'film';
+interface AppProps {
+  readonly stage: Stage;
+  readonly scene: HTMLElement;
+  /** Those of the mode that the page is in; read as a signal is. */
+  readonly actions: () => readonly Action[];
+}
+
+export function App({ stage, scene, actions }: AppProps) {
+  const now = current.value;
+  const all = actions();
   return (
     <>
       <header class="top-bar">
@@ -19,56 +34,112 @@ export function App({ stage, scene }: { stage: Stage; scene: HTMLElement }) {
           <Logo />
           <span>soapfilm</span>
         </h1>
-        <ModeSwitch />
-        {isFilm ? <FilmNav stage={stage} /> : polygons && <polygons.PolygonNav />}
-        <span class="document-name">{(isFilm ? doc : polygons?.polygonDoc)?.value.name}</span>
+        <ModeSwitch modes={allModes()} />
+        {now && (
+          <nav aria-label="Document">
+            {inBar(all, 'document').map((action) => (
+              <ActionButton key={action.id} action={action} />
+            ))}
+            <OpenButton of={now.room.fileNoun} accept={acceptOf(now.mode)} open={open} />
+            <ExportMenu actions={all} />
+            <HistoryButtons actions={all} />
+          </nav>
+        )}
+        <span class="document-name">{group.value?.name}</span>
         <IconButton icon="help" label="Keys and gestures" keys="?" onClick={() => (openDialog.value = 'help')} />
       </header>
-      <FilmMode stage={stage} scene={scene} />
-      {polygons && <polygons.PolygonMode />}
-      <DropZone />
-      <Dialogs />
+      <main>
+        <div class="viewport">
+          <div
+            ref={(element) => {
+              if (element && scene.parentElement !== element) element.append(scene);
+            }}
+          />
+          {now && <Floating room={now.room} stage={stage} actions={all} />}
+          <Toast />
+        </div>
+        {now && <Panel key={now.mode.id} room={now.room} />}
+      </main>
+      <DropZone mode={now?.mode ?? null} open={(files) => void open(files)} />
+      <Dialogs actions={all} />
     </>
   );
 }
 
-/** Takes a file dropped anywhere on the page. */
-function DropZone() {
-  const [over, setOver] = useState(false);
-  useEffect(() => {
-    let depth = 0;
-    const hasFile = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
-    const onEnter = (event: DragEvent) => {
-      if (!hasFile(event)) return;
-      depth++;
-      setOver(true);
-    };
-    const onLeave = (event: DragEvent) => {
-      if (hasFile(event) && --depth <= 0) setOver(false);
-    };
-    const onOver = (event: DragEvent) => {
-      if (hasFile(event)) event.preventDefault();
-    };
-    const onDrop = (event: DragEvent) => {
-      if (!hasFile(event)) return;
-      event.preventDefault();
-      depth = 0;
-      setOver(false);
-      const file = event.dataTransfer?.files[0];
-      const open = mode.peek() === 'film' ? openFile : polygonModule.peek()?.openPolygonFile;
-      if (file) void open?.(file);
-    };
-    window.addEventListener('dragenter', onEnter);
-    window.addEventListener('dragleave', onLeave);
-    window.addEventListener('dragover', onOver);
-    window.addEventListener('drop', onDrop);
-    return () => {
-      window.removeEventListener('dragenter', onEnter);
-      window.removeEventListener('dragleave', onLeave);
-      window.removeEventListener('dragover', onOver);
-      window.removeEventListener('drop', onDrop);
-    };
-  }, []);
-  const kinds = mode.value === 'film' ? '.curve, JSON or OBJ' : 'GeoJSON, .curve, JSON or OBJ';
-  return over ? <div class="drop-zone">Drop a {kinds} file</div> : null;
+/** What floats over the scene. */
+function Floating({ room, stage, actions }: { room: Room; stage: Stage; actions: readonly Action[] }) {
+  const { Overlay } = room;
+  return (
+    <>
+      {group.value?.items.length === 0 && <Hint room={room} actions={actions} />}
+      <ToolBar actions={actions} />
+      {Overlay && <Overlay />}
+      {room.dimension === 3 && <Gizmo view={stage.view} viewpoint={() => stage.current.peek()?.viewpoint} />}
+      <ViewBar actions={actions} />
+      <FaultLabels stage={stage} failures={room.failures.value} />
+      <Busy />
+    </>
+  );
 }
+
+/** The panel beside the scene; on narrow screens a sheet below it. */
+function Panel({ room: { Panel: Body, panelLabel, summary } }: { room: Room }) {
+  const id = useId();
+  const [isOpen, setOpen] = useState(false);
+  return (
+    <>
+      <aside class={isOpen ? 'panel open' : 'panel'} aria-label={panelLabel}>
+        <button
+          type="button"
+          class="panel-handle"
+          aria-expanded={isOpen}
+          aria-controls={id}
+          onClick={() => {
+            setOpen(!isOpen);
+          }}
+        >
+          <span>{summary.value}</span>
+          <Icon name="chevron" />
+        </button>
+        <div class="panel-body" id={id}>
+          <Body />
+        </div>
+      </aside>
+      <p class="visually-hidden" role="status" aria-live="polite">
+        {summary.value}
+      </p>
+    </>
+  );
+}
+
+/** How to begin, over a scene with nothing in it. */
+function Hint({ room: { hint }, actions }: { room: Room; actions: readonly Action[] }) {
+  return (
+    <div class="hint">
+      {tool.value === 'draw' ? (
+        <p>{hint.drawing}</p>
+      ) : (
+        <>
+          <p>Nothing here yet.</p>
+          <div class="hint-actions">
+            <button type="button" class="button primary" onClick={() => (tool.value = 'draw')}>
+              {hint.draw}
+            </button>
+            {inBar(actions, 'document').map((action) => (
+              <button key={action.id} type="button" class="button" onClick={() => { action.run(); }}>
+                {action.help}
+              </button>
+            ))}
+          </div>
+        </>
+      )}
+    </div>
+  );
+}
+
+async function open(files: readonly File[]): Promise<void> {
+  const now = current.peek();
+  if (now !== null && files.length > 0) await openFiles(files, { ...now, modes: allModes(), go: goTo });
+}
+
+const acceptOf = ({ files }: Mode): string => [...new Set(files.flatMap(({ extensions }) => extensions))].join(',');

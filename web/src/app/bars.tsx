@@ -1,8 +1,8 @@
-// What the bars of both modes are made of.
-import type { ComponentChildren } from 'preact';
-import type { Signal } from '@preact/signals';
-import type { History } from '../state/history.ts';
-import type { Tool } from '../state/store.ts';
+// Buttons made from actions, and the bars and the menu that they stand in.
+import { useEffect, useRef } from 'preact/hooks';
+import { signal } from '@preact/signals';
+import type { Pen } from '../state/store.ts';
+import { keysOf, labelOf, type Action, type Bar } from './actions.ts';
 import { linear, NumberField } from './controls.tsx';
 import { Icon, type IconName } from './icons.tsx';
 
@@ -10,10 +10,10 @@ interface ButtonProps {
   readonly icon: IconName;
   readonly label: string;
   /** Shown beside the icon where there is room. */
-  readonly text?: string;
-  readonly keys?: string;
+  readonly text?: string | undefined;
+  readonly keys?: string | undefined;
   readonly disabled?: boolean;
-  readonly pressed?: boolean;
+  readonly pressed?: boolean | undefined;
   readonly onClick: () => void;
 }
 
@@ -34,114 +34,120 @@ export function IconButton({ icon, label, text, keys, disabled, pressed, onClick
   );
 }
 
-/** The file input in the page; `chooseFile` opens the browser's dialog for it. */
-let fileInput: HTMLInputElement | null = null;
-export function chooseFile(): void {
-  fileInput?.click();
-}
-
-interface OpenButtonProps {
-  /** What the files hold. */
-  readonly of: string;
-  /** Their extensions, with dots and commas. */
-  readonly accept: string;
-  readonly open: (file: File) => Promise<void>;
-}
-
-export function OpenButton({ of, accept, open }: OpenButtonProps) {
+export function ActionButton({ action }: { action: Action }) {
+  const { icon = 'check', text, applies, isOn, run } = action;
   return (
-    <>
-      <IconButton icon="open" label="Open a file" text="Open" keys="Ctrl O" onClick={chooseFile} />
-      <input
-        ref={(element) => {
-          // The one of the other mode may go only after this one has come.
-          if (element) fileInput = element;
-        }}
-        type="file"
-        hidden
-        accept={accept}
-        aria-label={`File of ${of}`}
-        onChange={(event) => {
-          const input = event.currentTarget;
-          const file = input.files?.[0];
-          // So that the same file can be opened again.
-          if (file) void open(file).finally(() => (input.value = ''));
-        }}
-      />
-    </>
+    <IconButton
+      icon={typeof icon === 'string' ? icon : icon()}
+      label={labelOf(action)}
+      text={text}
+      keys={keysOf(action)}
+      disabled={!(applies?.() ?? true)}
+      pressed={isOn?.()}
+      onClick={() => { run(); }}
+    />
   );
 }
 
-type Steps = Pick<History<unknown, unknown>, 'canUndo' | 'canRedo' | 'undo' | 'redo'>;
+export const inBar = (actions: readonly Action[], bar: Bar): readonly Action[] => actions.filter((action) => action.bar === bar);
 
-export function HistoryButtons({ of: { canUndo, canRedo, undo, redo } }: { of: Steps }) {
+interface BarProps {
+  readonly actions: readonly Action[];
+}
+
+export function HistoryButtons({ actions }: BarProps) {
   return (
     <>
       <span class="rule" aria-hidden="true" />
-      <IconButton icon="undo" label="Undo" keys="Ctrl Z" disabled={!canUndo.value} onClick={undo} />
-      <IconButton icon="redo" label="Redo" keys="Ctrl Shift Z" disabled={!canRedo.value} onClick={redo} />
+      {inBar(actions, 'edit').map((action) => (
+        <ActionButton key={action.id} action={action} />
+      ))}
     </>
   );
 }
 
-type Deed = Pick<ButtonProps, 'label' | 'disabled' | 'onClick'>;
-
-interface ToolBarProps {
-  readonly tool: Signal<Tool>;
-  /** Deletes what is chosen. */
-  readonly bin: Deed;
-  /** Deletes everything. */
-  readonly clear: Deed;
-  /** Tools that this mode alone has. */
-  readonly children?: ComponentChildren;
-}
-
-const kTools: readonly { id: Tool; label: string; keys: string }[] = [
-  { id: 'select', label: 'Select', keys: 'V' },
-  { id: 'draw', label: 'Draw', keys: 'D' },
-];
-
-export function ToolBar({ tool, bin, clear, children }: ToolBarProps) {
+/** Tools that can be taken in hand, what a mode adds, and below a rule what takes away. */
+export function ToolBar({ actions }: BarProps) {
+  const all = inBar(actions, 'tools').filter(({ isOn, applies }) => !isOn || (applies?.() ?? true));
+  const isLast = ({ id }: Action) => id === 'delete' || id === 'clear';
   return (
     <div class="tool-bar floating" role="toolbar" aria-label="Tools" aria-orientation="vertical">
-      {kTools.map(({ id, label, keys }) => (
-        <IconButton
-          key={id}
-          icon={id}
-          label={label}
-          keys={keys}
-          pressed={tool.value === id}
-          onClick={() => (tool.value = id)}
-        />
+      {all.filter((action) => !isLast(action)).map((action) => (
+        <ActionButton key={action.id} action={action} />
       ))}
-      {children}
       <span class="rule" aria-hidden="true" />
-      <IconButton icon="trash" keys="Del" {...bin} />
-      <IconButton icon="clear" {...clear} />
+      {all.filter(isLast).map((action) => (
+        <ActionButton key={action.id} action={action} />
+      ))}
     </div>
   );
 }
 
-interface ViewBarProps {
-  /** What the space bar does as well: begins something that plays, or ends it. */
-  readonly play: Deed & { readonly isOn: boolean };
-  readonly frameAll: () => void;
-  readonly children?: ComponentChildren;
-}
-
-export function ViewBar({ play: { isOn, ...play }, frameAll, children }: ViewBarProps) {
+export function ViewBar({ actions }: BarProps) {
   return (
     <div class="view-bar floating" role="toolbar" aria-label="View">
-      <IconButton icon={isOn ? 'skip' : 'play'} keys="Space" {...play} />
-      <IconButton icon="fit" label="All in view" keys="F" onClick={frameAll} />
-      {children}
+      {inBar(actions, 'view').map((action) => (
+        <ActionButton key={action.id} action={action} />
+      ))}
     </div>
   );
 }
 
-interface Pen {
-  readonly count: number;
-  readonly smoothing: number;
+const isMenuOpen = signal(false);
+
+export function ExportMenu({ actions }: BarProps) {
+  const root = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const onPress = (event: Event) => {
+      if (!root.current?.contains(event.target as Node)) isMenuOpen.value = false;
+    };
+    window.addEventListener('pointerdown', onPress, { capture: true });
+    return () => {
+      window.removeEventListener('pointerdown', onPress, { capture: true });
+    };
+  }, []);
+  return (
+    <div
+      class="menu-root"
+      ref={root}
+      onKeyDown={(event) => {
+        if (event.key !== 'Escape' || !isMenuOpen.peek()) return;
+        isMenuOpen.value = false;
+        root.current?.querySelector('button')?.focus();
+        event.stopPropagation();
+      }}
+    >
+      <button
+        type="button"
+        class="icon-button with-text"
+        aria-label="Export"
+        title="Export"
+        aria-expanded={isMenuOpen.value}
+        onClick={() => (isMenuOpen.value = !isMenuOpen.peek())}
+      >
+        <Icon name="save" />
+        <span class="button-text">Export</span>
+      </button>
+      {isMenuOpen.value && (
+        <div class="menu">
+          {inBar(actions, 'export').map((action) => (
+            <button
+              key={action.id}
+              type="button"
+              disabled={!(action.applies?.() ?? true)}
+              onClick={() => {
+                isMenuOpen.value = false;
+                action.run();
+              }}
+            >
+              <span>{action.text ?? labelOf(action)}</span>
+              <span class="muted">{action.note}</span>
+            </button>
+          ))}
+        </div>
+      )}
+    </div>
+  );
 }
 
 interface PenFieldsProps {

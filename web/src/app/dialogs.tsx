@@ -1,22 +1,24 @@
 // Which dialog is open. The dialogs themselves are fetched when one is first wanted.
 import { useEffect, useState } from 'preact/hooks';
 import { signal } from '@preact/signals';
-import { say } from '../state/store.ts';
+import { complain, settle } from '../state/notice.ts';
+import type { Action } from './actions.ts';
 
-export type DialogId = 'gallery' | 'help';
-export const openDialog = signal<DialogId | null>(null);
+/** `help`, or one that a mode brings. */
+export const openDialog = signal<string | null>(null);
 
 type SheetsModule = typeof import('./sheets.tsx');
 
-export function Dialogs() {
+export function Dialogs({ actions }: { actions: readonly Action[] }) {
   const [found, setFound] = useState<SheetsModule | null>(null);
   const isWanted = openDialog.value !== null;
   useEffect(() => {
     if (!isWanted || found) return;
+    settle('dialog');
     import('./sheets.tsx').then(setFound, () => {
       openDialog.value = null;
-      say('This dialog could not be loaded.', 'error');
+      complain('This dialog could not be loaded.', 'dialog');
     });
   }, [isWanted]);
-  return found && <found.Sheets />;
+  return found && <found.Sheets actions={actions} />;
 }

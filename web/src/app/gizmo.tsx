@@ -1,7 +1,8 @@
 // The axes as the eye stands to them; pressing one looks along it.
 // Own drawing instead of three's ViewHelper, which takes y as up and cannot be reached by keyboard.
 import { useEffect, useRef } from 'preact/hooks';
-import type { Stage } from '../scene/stage.ts';
+import type { View } from '../scene/view.ts';
+import type { Viewpoint } from '../scene/viewpoint.ts';
 import { dot, type Point } from '../shapes/vec.ts';
 
 const kAxes: readonly { name: string; label: string; direction: Point }[] = [
@@ -14,11 +15,18 @@ const kAxes: readonly { name: string; label: string; direction: Point }[] = [
 ];
 const kReach = 34;
 
-export function Gizmo({ stage }: { stage: Stage }) {
+interface GizmoProps {
+  readonly view: View;
+  readonly viewpoint: () => Viewpoint | undefined;
+}
+
+export function Gizmo({ view, viewpoint }: GizmoProps) {
   const root = useRef<HTMLDivElement>(null);
   useEffect(() => {
     const place = () => {
-      const { right, up, toViewer } = stage.view.axes();
+      const now = viewpoint();
+      if (now === undefined) return;
+      const { right, up, toViewer } = now.axes();
       kAxes.forEach(({ direction }, i) => {
         const [x, y] = [kReach * dot(direction, right), -kReach * dot(direction, up)];
         const near = dot(direction, toViewer);
@@ -32,8 +40,8 @@ export function Gizmo({ stage }: { stage: Stage }) {
       });
     };
     place();
-    return stage.view.onCamera(place);
-  }, [stage]);
+    return view.onCamera(place);
+  }, [view]);
   return (
     <div class="gizmo" ref={root} role="group" aria-label="Look along an axis">
       <svg viewBox="-50 -50 100 100" aria-hidden="true">
@@ -47,7 +55,7 @@ export function Gizmo({ stage }: { stage: Stage }) {
           class={`ball axis-${axis} ${label ? 'positive' : 'negative'}`}
           aria-label={`Look from ${label ? 'plus' : 'minus'} ${axis}`}
           onClick={() => {
-            stage.view.lookFrom(direction);
+            viewpoint()?.lookFrom(direction);
           }}
         >
           {label}

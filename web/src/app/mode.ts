@@ -2,6 +2,7 @@
 // wanted. A folder of web/src/modes holds each, and a line in modes/index.ts makes it known.
 import type { ComponentType } from 'preact';
 import type { ReadonlySignal } from '@preact/signals';
+import type { ModeScene } from '../scene/mode_scene.ts';
 import type { Stage } from '../scene/stage.ts';
 import type { PenTool } from '../scene/tools.ts';
 import type { DrawnKind } from '../scene/kind.ts';
@@ -62,8 +63,8 @@ export interface Room {
   readonly settings: object;
   /** Puts something into an empty document to begin with, without a step of the history. */
   readonly begin: () => void;
-  /** Called once the scene of the mode is there. */
-  readonly enter?: () => void;
+  /** Called once, when the scene of the mode is there: adds to it what the mode draws besides objects. */
+  readonly draw?: (scene: ModeScene) => void;
   /** The objects in the content of a file of one of the mode's kinds. @throws SoapfilmError `bad-file` */
   readonly read: (kind: string, content: Content) => ReadFile | Promise<ReadFile>;
   readonly pen?: PenTool;
@@ -71,6 +72,10 @@ export interface Room {
   /** What is wrong with objects, marked at them and in words. */
   readonly failures: ReadonlySignal<readonly Failure[]>;
   readonly actions: readonly Action[];
+  /** Called when the scene is pressed, before a tool takes it. */
+  readonly pressed?: () => void;
+  /** Ends what Escape ends in this mode alone; says whether there was anything. */
+  readonly escape?: () => boolean;
   readonly help: { readonly about: string; readonly rows: readonly HelpRow[] };
   /** One line on how things stand. */
   readonly summary: ReadonlySignal<string>;

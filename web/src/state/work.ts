@@ -42,6 +42,8 @@ export interface Watch<Detail> {
 }
 
 export interface WorkOptions<Input extends object, Result, Detail> {
+  /** What is done: "Spanning". */
+  readonly verb: string;
   /** What there is to do; null: nothing. Another object whenever it has changed, and only then. */
   readonly input: ReadonlySignal<Input | null>;
   /** The part of the library that does it. */
@@ -57,6 +59,8 @@ export interface WorkOptions<Input extends object, Result, Detail> {
 }
 
 export interface Work<Detail = unknown> {
+  /** What is done: "Spanning". */
+  readonly verb: string;
   readonly state: ReadonlySignal<WorkState<Detail>>;
   /** Begins, in place of what is still running. */
   start(): void;
@@ -179,6 +183,7 @@ export function createWork<Input extends object, Result, Detail = never>(
   };
 
   const work: Work<Detail> = {
+    verb: options.verb,
     state,
     start,
     end() {

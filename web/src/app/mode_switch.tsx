@@ -1,0 +1,28 @@
+// The buttons of the modes. One that is on its way says so.
+import { dismissNotice } from '../state/notice.ts';
+import { mode } from '../state/store.ts';
+import type { Mode } from './mode.ts';
+import { awaited, chooseMode } from './rooms.ts';
+
+export function ModeSwitch({ modes }: { modes: readonly Mode[] }) {
+  return (
+    <div class="modes" role="group" aria-label="Mode">
+      {modes.map(({ id, label, title }) => (
+        <button
+          key={id}
+          type="button"
+          title={title}
+          aria-pressed={mode.value === id}
+          aria-busy={awaited.value === id}
+          onClick={() => {
+            // What it says is about the mode that is left.
+            dismissNotice();
+            chooseMode(id);
+          }}
+        >
+          {label}
+        </button>
+      ))}
+    </div>
+  );
+}
