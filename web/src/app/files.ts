@@ -36,6 +36,7 @@ type Outcome = { readonly file: File } & (
  */
 export async function openFiles(files: readonly File[], into: Destination): Promise<void> {
   settle('file');
+  if (files.length === 0) return;
   const outcomes: Outcome[] = [];
   for (const file of files) outcomes.push(await read(file, into));
   const opened = outcomes.filter((each) => each.is === 'read');

@@ -12,7 +12,10 @@ export type Restored = Claim['from'];
 export interface Drafts {
   /** Puts the draft of this tab, if there is one, into the document; never rejects. */
   readonly restore: () => Promise<Restored>;
-  /** Stores the document whenever it has changed, from now on. Call it after `restore`. */
+  /**
+   * Stores the document whenever it has changed, from now on, and says what there is to say about drafts. Call it when
+   * the first room is shown: a change of rooms takes away what was said before.
+   */
   readonly keep: () => void;
   /** Stores the document as it is, without waiting for a gesture's end: the page may be about to go. */
   readonly flush: () => void;
@@ -36,6 +39,7 @@ export function createDrafts(browser: Browser, history: Pick<History, 'doc' | 'i
   /** The document as it is stored, or is going to be. */
   let stored = doc.peek();
   let hasComplained = false;
+  let remark = (): void => undefined;
 
   const write = async (next: Document): Promise<void> => {
     try {
@@ -71,10 +75,13 @@ export function createDrafts(browser: Browser, history: Pick<History, 'doc' | 'i
         isDraft = true;
       }
       stored = doc.peek();
-      remarkOn(claim, browser.hold !== null);
+      remark = () => {
+        remarkOn(claim, browser.hold !== null);
+      };
       return claim.from;
     },
     keep() {
+      remark();
       effect(() => {
         // Both are read, so that the effect follows both.
         const [, live] = [doc.value, isLive.value];

@@ -59,12 +59,12 @@ export function isRecord(value: unknown): value is Record<string, unknown> {
 
 /**
  * The group with the objects that its kinds can read, and the number of others. Settings that are missing, or of another
- * type than in `settings`, are taken from there.
+ * type than in `settings`, are taken from there; those that are not in it go.
  */
 export function adoptGroup<S extends object>(
   group: Group,
   kinds: readonly Pick<Kind<unknown>, 'name' | 'read'>[],
-  settings: S,
+  settings = group.settings as S,
 ): { readonly group: Group<S>; readonly lost: number } {
   const items = group.items.flatMap((item) => {
     const shape = kinds.find(({ name }) => name === item.kind)?.read(item.shape) ?? null;
