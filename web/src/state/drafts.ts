@@ -1,6 +1,6 @@
 // Drafts: the document is stored in the browser after every gesture, and is there again when the page is. Each tab has
 // a draft of its own.
-import { createStore, del, get, keys, set } from 'idb-keyval';
+import { createStore, del, get, keys, promisifyRequest } from 'idb-keyval';
 import { createDrafts } from './draft_keeper.ts';
 import type { Browser } from './draft_slots.ts';
 import * as page from './store.ts';
@@ -19,7 +19,13 @@ function thisBrowser(): Browser {
       // What throws at once, such as a browser without a database, rejects.
       keys: async () => keys<string>(database),
       get: async (key) => get<unknown>(key, database),
-      set: async (key, value) => set(key, value, database),
+      set: async (key, value) =>
+        database('readwrite', (store) => {
+          store.put(value, key);
+          // A browser that is not told so waits for the page to ask for more, and gives up when the page goes.
+          store.transaction.commit();
+          return promisifyRequest(store.transaction);
+        }),
       del: async (key) => del(key, database),
     },
     hold: locks === undefined ? null : (name, waitMs) => holdLock(locks, name, waitMs),
