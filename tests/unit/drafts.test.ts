@@ -118,8 +118,29 @@ describe('a tab', () => {
     await settled();
     const again = tab.reload();
     expect([await again.start(), again.names, notice.value]).toEqual(['own', ['mine'], null]);
-    expect(newId()).toBeGreaterThan(again.history.doc.value.groups[0].items[0].id);
     expect(again.history.canUndo.value).toBe(false);
+  });
+
+  test('with a drawing of an earlier visit: new ids are none of its own', async () => {
+    const fake = new Fake();
+    fake.draft('own', draftOf({ groups: [{ ...groupOf('old'), id: 1e6 }] }, 1));
+    await fake.open('own').start();
+    expect(newId()).toBe(1e6 + 1);
+  });
+
+  test('left while a change waits for another to be stored: stores it at once', async () => {
+    const fake = new Fake();
+    const tab = fake.open();
+    await tab.start();
+    fake.gate = new Promise(() => undefined);
+    tab.draw('first');
+    fake.gate = Promise.resolve();
+    tab.draw('second');
+    await settled();
+    expect(fake.stored.size).toBe(0);
+    tab.drafts.flush();
+    await settled();
+    expect(fake.names()).toEqual(['second']);
   });
 
   test('with an example that nobody has touched: stores nothing', async () => {
