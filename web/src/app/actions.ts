@@ -44,7 +44,8 @@ export function keysOf({ keys, keysShown }: Action): string | undefined {
   if (keysShown !== undefined) return keysShown;
   return keys?.[0]
     ?.replace('canvas+', '')
-    .split('+')
+    // The plus sign may be the key itself.
+    .split(/\+(?=.)/)
     .map((part) => kNames[part] ?? part[0].toUpperCase() + part.slice(1))
     .join(' ');
 }

@@ -22,7 +22,7 @@ import { busy, endAllWork } from '../state/work.ts';
 import type { Action } from './actions.ts';
 import { chooseFile } from './open_button.tsx';
 import { openDialog } from './dialogs.tsx';
-import { savePicture } from './files.ts';
+import { fileStem, save } from './files.ts';
 import type { Room } from './mode.ts';
 import { current } from './rooms.ts';
 
@@ -99,7 +99,7 @@ const pictureAction = (stage: Stage): Action => ({
   bar: 'export',
   text: 'Picture',
   note: 'PNG',
-  run: () => void stage.view.picture().then(savePicture),
+  run: () => { save(`${fileStem(group.peek()?.name ?? '')}.png`, 'image/png', () => stage.view.picture()); },
 });
 
 function coreActions(stage: Stage, tools: Tools): readonly Action[] {

@@ -3,7 +3,7 @@
 import { batch, computed, signal } from '@preact/signals';
 import type { Stage } from '../scene/stage.ts';
 import { registerKind } from '../state/document.ts';
-import { adoptGroup } from '../state/drafts.ts';
+import { adoptGroup, setDraftAside } from '../state/drafts.ts';
 import { complain, dismissNotice, settle } from '../state/notice.ts';
 import { choose, doc, ensureGroup, groupOf, hover, mode as shown, put, requestFrame, shownByStep } from '../state/store.ts';
 import type { Mode, Room } from './mode.ts';
@@ -78,6 +78,8 @@ export async function goTo(id: string): Promise<OpenedMode | null> {
     begun.add(mode.id);
     if (fresh.has(mode.id)) room.begin();
     else requestFrame(undefined, true);
+    const lost = lostOf.get(mode.id) ?? 0;
+    if (lost > 0) complain(`${lost} of the draft’s ${room.nouns[1]} could not be read. They are left out, and the draft is kept.`, 'draft');
   }
   return found;
 }
@@ -85,6 +87,8 @@ export async function goTo(id: string): Promise<OpenedMode | null> {
 /** Modes that have been shown, and those whose group was not in the draft. */
 const begun = new Set<string>();
 const fresh = new Set<string>();
+/** How many objects of the draft could not be read. */
+const lostOf = new Map<string, number>();
 
 function enroll(mode: Mode, openRoom: (stage: Stage) => Room): OpenedMode {
   if (stage === null) throw new Error('There is no stage.');
@@ -93,9 +97,11 @@ function enroll(mode: Mode, openRoom: (stage: Stage) => Room): OpenedMode {
   const saved = doc.peek().groups.find((group) => group.mode === mode.id);
   if (saved === undefined) fresh.add(mode.id);
   else {
-    const { group, lost } = adoptGroup({ ...saved, settings: { ...room.settings, ...saved.settings } }, room.kinds);
+    const { group, lost } = adoptGroup(saved, room.kinds, room.settings);
+    // The draft as it is stays in the browser, for a version of the page that can read all of it.
+    if (lost > 0) void setDraftAside();
     put(group);
-    if (lost > 0) complain(`${lost} objects of the draft could not be read and were left out.`, 'draft');
+    lostOf.set(mode.id, lost);
   }
   ensureGroup(mode.id, room.settings);
   const group = groupOf(mode.id, room.settings);

@@ -47,9 +47,9 @@ export function openRoom(stage: Stage): Room {
       scene = new FilmScene(stage, modeScene);
       exposeFilm(modeScene.viewpoint, stage.view.canvas);
     },
-    async read(_, { bytes }) {
+    async read(_, { text }) {
       const { parseLoops } = await fetchFormats();
-      const loops = parseLoops(bytes);
+      const loops = parseLoops(text);
       const items = fromLoopSet(loops).map((curve) => newItem(kCurve, curve));
       return { items, ...(loops.name !== undefined && { name: loops.name }) };
     },
