@@ -1,0 +1,127 @@
+// The rooms of the page: going from one to another, one history for all, what happens without a network.
+import { createRequire } from 'node:module';
+import { feature } from 'topojson-client';
+import '../../web/src/inspection.ts';
+import '../../web/src/modes/polygon/inspection.ts';
+import { expect, hasCurves, openPage, spanned, stateOf, test } from './support.ts';
+
+type Page = Parameters<typeof openPage>[0];
+
+const toPolygons = async (page: Page): Promise<void> => {
+  await page.getByRole('button', { name: 'Polygon', exact: true }).click();
+  await page.waitForFunction(() => window.__polygons?.triangulated);
+};
+const polygonCount = (page: Page) => page.evaluate(() => window.__polygons?.document.polygons.length);
+const modeOf = async (page: Page) => (await stateOf(page)).mode;
+
+test('undo and redo: one history for all modes, and the mode is shown that they change', async ({ quietPage: page }) => {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await openPage(page);
+  const { curves } = await stateOf(page);
+  await page.keyboard.press('a');
+  await hasCurves(page, 3);
+  await toPolygons(page);
+  expect(await polygonCount(page)).toBe(1);
+  await page.getByRole('button', { name: 'Clear all polygons' }).click();
+  await expect.poll(() => polygonCount(page)).toBe(0);
+  await page.getByRole('button', { name: 'Film', exact: true }).click();
+  await page.keyboard.press('a');
+  await hasCurves(page, 4);
+
+  await page.keyboard.press('Control+z');
+  await hasCurves(page, 3);
+  expect(await modeOf(page)).toBe('film');
+  await page.keyboard.press('Control+z');
+  await expect.poll(() => polygonCount(page)).toBe(1);
+  expect(await modeOf(page)).toBe('polygon');
+  expect(new URL(page.url()).hash).toBe('#polygon');
+  await expect(page.getByRole('region', { name: 'Triangulation' })).toBeVisible();
+  await page.getByRole('button', { name: 'Undo' }).click();
+  await hasCurves(page, 2);
+  expect(await modeOf(page)).toBe('film');
+  expect((await spanned(page)).curves).toEqual(curves);
+  await expect(page.getByRole('button', { name: 'Undo' })).toBeDisabled();
+
+  await page.keyboard.press('Control+y');
+  await hasCurves(page, 3);
+  await page.keyboard.press('Control+y');
+  await expect.poll(() => polygonCount(page)).toBe(0);
+  expect(await modeOf(page)).toBe('polygon');
+  await page.keyboard.press('Control+y');
+  await hasCurves(page, 4);
+  expect(await modeOf(page)).toBe('film');
+  await expect(page.getByRole('button', { name: 'Redo' })).toBeDisabled();
+});
+
+test('the browser’s own steps: back and forward go between modes', async ({ quietPage: page }) => {
+  await openPage(page);
+  await toPolygons(page);
+  await page.goBack();
+  await expect.poll(() => modeOf(page)).toBe('film');
+  await page.goForward();
+  await expect.poll(() => modeOf(page)).toBe('polygon');
+});
+
+test('without a network: a mode that is not there yet says so, the page stays, and later tries work', async ({ page, context }) => {
+  // The browser says of its own accord that a script could not be fetched, so the console is not quiet.
+  const thrown: string[] = [];
+  page.on('pageerror', (error) => thrown.push(error.message));
+  await openPage(page);
+  await context.setOffline(true);
+  await page.getByRole('button', { name: 'Polygon', exact: true }).click();
+  await expect(page.getByText('Polygon could not be fetched: there is no connection.')).toBeVisible();
+  expect(await modeOf(page)).toBe('film');
+  expect(new URL(page.url()).hash).toBe('');
+  await expect(page.getByRole('button', { name: 'Clear all curves' })).toBeVisible();
+  expect((await page.locator('canvas').boundingBox())?.width).toBeGreaterThan(300);
+  // Still at work.
+  await page.keyboard.press('a');
+  await hasCurves(page, 3);
+  await page.getByRole('button', { name: 'Polygon', exact: true }).click();
+  await page.getByRole('button', { name: 'Try again' }).click();
+  await expect(page.getByText('Polygon could not be fetched')).toBeVisible();
+  await context.setOffline(false);
+  await page.getByRole('button', { name: 'Try again' }).click();
+  await page.waitForFunction(() => window.__polygons?.triangulated);
+  expect(await modeOf(page)).toBe('polygon');
+  expect(thrown).toEqual([]);
+});
+
+test('countries at 1 : 50 million: drawn, no task longer than a few of those that reading the file takes', async ({ quietPage: page }) => {
+  const require = createRequire(import.meta.url);
+  const world = require('world-atlas/countries-50m.json') as Parameters<typeof feature>[0];
+  const geojson = JSON.stringify(feature(world, world.objects.countries));
+  await page.goto('?aa=0&dpr=1#polygon');
+  await page.waitForFunction(() => window.__polygons?.triangulated);
+  // The machine's own measure: what the browser needs to read the file as JSON, the median of some.
+  const parse = await page.evaluate((text) => {
+    const times = Array.from({ length: 5 }, () => {
+      const since = performance.now();
+      JSON.parse(text);
+      return performance.now() - since;
+    });
+    return times.sort((a, b) => a - b)[2];
+  }, geojson);
+  await page.evaluate(() => {
+    const tasks: number[] = [];
+    new PerformanceObserver((list) => {
+      for (const { duration } of list.getEntries()) tasks.push(duration);
+    }).observe({ type: 'longtask' });
+    Object.assign(window, { tasks });
+  });
+  await page.getByLabel('File of polygons').setInputFiles({
+    name: 'countries.geojson',
+    mimeType: 'application/geo+json',
+    buffer: Buffer.from(geojson),
+  });
+  await page.waitForFunction(() => (window.__polygons?.triangulated?.triangles.length ?? 0) > 3 * 90_000);
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  await page.mouse.move(300, 300);
+  await page.mouse.wheel(0, -200);
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  const tasks = await page.evaluate(() => (window as unknown as { tasks: number[] }).tasks);
+  const longest = Math.max(0, ...tasks);
+  console.log(`longest task ${longest.toFixed(0)} ms; reading the file as JSON ${parse.toFixed(0)} ms`);
+  // When all triangles were one path of a 2D canvas it was more than a thousand times as long.
+  expect(longest).toBeLessThan(25 * parse);
+});
