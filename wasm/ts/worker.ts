@@ -5,6 +5,7 @@ import { compile } from './compile.js';
 import { kDispose } from './dispose.js';
 import { notLoaded } from './errors.js';
 import { flattenLoops } from './flatten.js';
+import { Launcher } from './launch.js';
 import { kLoadOptions, kSpanOptions, signalOf } from './options.js';
 import { Pool } from './pool.js';
 import { tellEnd } from './report.js';
@@ -78,7 +79,7 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
     throw mustBe('bad-option', 'size', 'a whole number of threads, at least 1', size);
   }
   const modules = await compile(given as LoadOptions);
-  const pool = new Pool(modules, size);
+  const pool = new Pool(new Launcher(modules), size);
   await pool.start();
   const dispose = (): void => {
     pool.dispose();
