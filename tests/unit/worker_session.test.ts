@@ -284,10 +284,17 @@ test.each([
   ['idle: the process ends', '', '10\n'],
   ['an edit under way: the process ends after it', "session.move(0, [0, 1]).then(() => console.log('done'));", '10\ndone\n'],
   ['one is being opened: the process ends after that', "film.createPolygonSession(polygon).then(() => console.log('open'));", '10\nopen\n'],
+  [
+    'another is cancelled before its thread has started: the process ends',
+    `const controller = new AbortController();
+    film.createPolygonSession(polygon, { signal: controller.signal }).catch((error) => console.log(error.code));
+    controller.abort();`,
+    '10\ncancelled\n',
+  ],
 ])('a session is open, %s', async (_, more, expected) => {
   const script = `
     import { createWorker } from 'soapfilm/worker';
-    const film = await createWorker();
+    const film = await createWorker({ size: 2 });
     const polygon = ${JSON.stringify(kPolygon)};
     const session = await film.createPolygonSession(polygon);
     console.log((await session.insertPoint([7, 7])).triangleCount);

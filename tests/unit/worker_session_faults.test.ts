@@ -274,6 +274,17 @@ describe('threads', () => {
     expect(await around(c)).toEqual([1, 0]);
   });
 
+  test('one does not end while a session is being opened, however long that takes', async () => {
+    const film = await newFilm();
+    const [a] = await open(film, 1);
+    a.dispose();
+    const opening = rejectionOf(film.createPolygonSession(triangle(Fault.hang)));
+    const first = await Promise.race([once(started[1], 'exit'), soon(1500)]);
+    expect(first).toBeUndefined();
+    film.dispose();
+    expect((await opening).code).toBe('disposed');
+  });
+
   test('the pool is disposed of while one hangs, and another starts: everything is disposed', async () => {
     const film = await newFilm(2);
     const [a] = await open(film, 1);
