@@ -161,7 +161,7 @@ export class Pool {
    */
   async start(): Promise<void> {
     this.#starting++;
-    let member: Member | undefined;
+    let member: Member | undefined = undefined;
     let thread: Thread;
     try {
       thread = await this.launcher.launch({

@@ -167,7 +167,7 @@ export class RemoteSession<S extends Resident> {
     ...input: Methods<S>[N] extends (...args: infer A) => unknown ? A : never
   ): Promise<Methods<S>[N] extends (...args: never[]) => infer R ? R : never> {
     this.alive();
-    return (await this.#host.ask(this.id, { method: method as string, input: input as unknown[] })) as never;
+    return (await this.#host.ask(this.id, { method: method as string, input })) as never;
   }
 
   /** Frees it in the thread. Calls before still get their answers. */
