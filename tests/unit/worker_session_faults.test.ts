@@ -274,10 +274,18 @@ describe('threads', () => {
     expect(await around(c)).toEqual([1, 0]);
   });
 
+  test('one whose only session could not be opened: ends as well', async () => {
+    const film = await newFilm();
+    expect((await rejectionOf(film.createPolygonSession(triangle(Fault.trap)))).code).toBe('crashed');
+    await once(started[1], 'exit');
+    expect(await around((await open(film, 1))[0])).toEqual([1, 0]);
+  });
+
   test('one does not end while a session is being opened, however long that takes', async () => {
     const film = await newFilm();
     const [a] = await open(film, 1);
     a.dispose();
+    await soon(100);
     const opening = rejectionOf(film.createPolygonSession(triangle(Fault.hang)));
     const first = await Promise.race([once(started[1], 'exit'), soon(1500)]);
     expect(first).toBeUndefined();
