@@ -1,5 +1,5 @@
 // Triangles in the plane, flat, with their edges; some of them in colours of their own.
-import { BufferAttribute, BufferGeometry, Color, Mesh, ShaderMaterial, SRGBColorSpace } from 'three';
+import { BufferAttribute, BufferGeometry, Color, Mesh, ShaderMaterial, Sphere, SRGBColorSpace } from 'three';
 import type { Placement } from '../../scene/placement.ts';
 import type { SurfaceColors } from '../../scene/theme.ts';
 
@@ -72,6 +72,8 @@ export class Fill {
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(position, 2));
     geometry.setAttribute('tint', new BufferAttribute(tint, 1));
+    // Else three would look at all vertices for one.
+    geometry.boundingSphere = new Sphere();
     this.object.geometry = geometry;
     this.showFirst(this.shown);
   }
