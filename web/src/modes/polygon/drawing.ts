@@ -7,21 +7,20 @@ import type { ModeScene } from '../../scene/mode_scene.ts';
 import type { Stage } from '../../scene/stage.ts';
 import type { Point } from '../../shapes/vec.ts';
 import { shown } from '../../state/store.ts';
-import { FaultRings } from './fault_rings.ts';
 import { Fill, trianglesOfStrips } from './fill.ts';
 import { flooding } from './flooding.ts';
 import { failures, triangulated } from './triangulating.ts';
 
 /** In CSS pixels. */
 const kAddedDot = 7;
+const kFaultRing = 22.5;
 const kChainWidth = 2.5;
 const kChainDot = 10;
 
 /** Draws from now on whatever there is. */
 export function drawTriangulation({ view, theme }: Stage, { root, placement }: ModeScene): void {
-  const [fill, rings, chain] = [new Fill(), new FaultRings(), new FatLines()];
-  const [added, chainEnds] = [new Dots(false), new Dots(false)];
-  root.add(fill.object, rings.object, chain.object, added.object, chainEnds.object);
+  const [fill, points, chain, chainEnds] = [new Fill(), new Dots(false), new FatLines(), new Dots(false)];
+  root.add(fill.object, points.object, chain.object, chainEnds.object);
   const flood = computed(() => flooding.value?.flood ?? null);
   const follow = (draw: () => void): void => {
     effect(() => {
@@ -50,15 +49,14 @@ export function drawTriangulation({ view, theme }: Stage, { root, placement }: M
   follow(() => {
     const found = triangulated.value;
     const { curves } = theme.value;
-    const dots = added.begin(placement.value);
+    const dots = points.begin(placement.value);
     if (found) {
       for (let at = found.positions.length - 2 * found.added; at < found.positions.length; at += 2) {
         dots.put([found.positions[at], found.positions[at + 1], 0], curves.inserted, kAddedDot);
       }
     }
-    added.show(view.renderer.getPixelRatio(), curves.rim);
-    const points = failures.value.flatMap(({ point }) => (point ? [point] : []));
-    rings.show(points, curves.fault, placement.value, view.renderer.getPixelRatio());
+    for (const { point } of failures.value) if (point) dots.put(point, curves.fault, kFaultRing, 'ring');
+    points.show(view.renderer.getPixelRatio(), curves.rim);
   });
 
   // The active chain's ends, and the level of the water between them.
@@ -71,9 +69,9 @@ export function drawTriangulation({ view, theme }: Stage, { root, placement }: M
       const { positions, steps } = now.flood;
       const { left, right } = steps[now.taken];
       const ends = [left, right].filter((v) => 2 * v + 1 < positions.length);
-      const points = ends.map((v): Point => [positions[2 * v], positions[2 * v + 1], 0]);
-      if (points.length > 1) chain.put(pathOf(points, false, placement.value), { color: curves.selected, width: kChainWidth, isOnTop: true, order: 3 });
-      for (const point of points) dots.put(point, curves.selected, kChainDot);
+      const path = ends.map((v): Point => [positions[2 * v], positions[2 * v + 1], 0]);
+      if (path.length > 1) chain.put(pathOf(path, false, placement.value), { color: curves.selected, width: kChainWidth, isOnTop: true, order: 3 });
+      for (const point of path) dots.put(point, curves.selected, kChainDot);
     }
     chainEnds.show(view.renderer.getPixelRatio(), curves.rim);
   });

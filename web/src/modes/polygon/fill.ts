@@ -28,7 +28,9 @@ void main() {
   vec3 perPixel = fwidth(vCorner);
   // Half of an edge of 0.75 pixels.
   vec3 inside = smoothstep(perPixel * -0.125, perPixel * 0.875, vCorner);
-  float wire = 1.0 - min(min(inside.x, inside.y), inside.z);
+  // Edges of triangles that are lower than a few pixels fade, else they would cover everything.
+  vec3 strength = (1.0 - inside) * (1.0 - smoothstep(0.3, 1.2, perPixel));
+  float wire = max(max(strength.x, strength.y), strength.z);
   gl_FragColor = vec4(mix(vColor, uWire, wire * uWireOpacity), 1.0);
   #include <colorspace_fragment>
 }`;
