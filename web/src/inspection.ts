@@ -1,19 +1,29 @@
-// `window.__soapfilm`: the page's state, read-only, for its own tests and for a look from the console.
+// What the page shows of its state, read-only, to its own tests and to a look from the console.
 import type { ReadonlySignal } from '@preact/signals';
-import type { Stage } from './scene/stage.ts';
-import type { Point2 } from './shapes/plane.ts';
-import type { Document } from './state/document.ts';
-import type { Flooding, PolygonDocument, RingPlace, Triangulated } from './state/polygon.ts';
-import { isStale, solve, surface, type Solve, type Surface } from './state/solving.ts';
-import { canRedo, canUndo, doc, isGrowing, notice, selection, tool, type Notice, type Selection, type Tool } from './state/store.ts';
+import type { Span } from 'soapfilm';
+import type { Place } from './state/document.ts';
+import type { Notice } from './state/notice.ts';
+import type { Tool } from './state/store.ts';
+import type { Failure } from './state/work.ts';
 
+/** `window.__soapfilm`: the page, and the mode of films. */
 export interface Inspection {
-  readonly document: Document;
-  readonly solve: Solve;
-  readonly surface: Surface | null;
+  readonly document: {
+    readonly name: string;
+    readonly curves: readonly (readonly (readonly number[])[])[];
+    readonly settings: {
+      readonly weights: { readonly area: number; readonly perimeter: number; readonly dihedral: number };
+      readonly candidates: unknown;
+    };
+  };
+  readonly solve: { readonly phase: string } | ({ readonly phase: 'failed' } & Failure);
+  readonly surface: { readonly span: Span } | null;
   readonly isStale: boolean;
   readonly isGrowing: boolean;
-  readonly selection: Selection | null;
+  /** What was chosen last. */
+  readonly selection: { readonly curve: number; readonly vertex: number | null } | null;
+  readonly places: readonly Place[];
+  readonly mode: string;
   readonly tool: Tool;
   readonly notice: Notice | null;
   readonly canUndo: boolean;
@@ -22,20 +32,9 @@ export interface Inspection {
   whereIs(curve: number, vertex: number): { x: number; y: number };
 }
 
-/** `window.__polygons`: the same for the mode of polygons, once it has been opened. */
-export interface PolygonInspection {
-  readonly document: PolygonDocument;
-  readonly triangulated: Triangulated | null;
-  readonly flooding: Flooding | null;
-  readonly selection: RingPlace | null;
-  /** Where a point of the plane appears, in CSS pixels of the window. */
-  whereIs(point: Point2): { x: number; y: number };
-}
-
 declare global {
   interface Window {
     __soapfilm?: Inspection;
-    __polygons?: PolygonInspection;
   }
 }
 
@@ -55,13 +54,4 @@ export function valuesOf<S extends Signals>(signals: S): Values<S> {
 export function inWindow(canvas: HTMLCanvasElement, x: number, y: number): { x: number; y: number } {
   const { left, top } = canvas.getBoundingClientRect();
   return { x: left + x, y: top + y };
-}
-
-export function exposeForInspection({ view }: Stage): void {
-  const whereIs: Inspection['whereIs'] = (curve, vertex) => {
-    const { x, y } = view.project(doc.peek().curves[curve][vertex]);
-    return inWindow(view.canvas, x, y);
-  };
-  const now = valuesOf({ document: doc, solve, surface, isStale, isGrowing, selection, tool, notice, canUndo, canRedo });
-  window.__soapfilm = Object.assign(now, { whereIs });
 }

@@ -35,7 +35,7 @@ try {
   const room = () => current.peek()?.room;
   const tools = new Tools(stage, () => room()?.pen ?? null, () => room()?.pressed?.());
   const actions = computed(() => actionsOf(stage, tools, current.value?.room));
-  render(<App stage={stage} scene={scene} actions={() => actions.value} />, root);
+  render(<App modes={kModes} stage={stage} scene={scene} actions={() => actions.value} />, root);
   attachKeyboard(canvas, () => actions.peek());
   await restoreDraft();
   await startRooms(kModes, stage);

@@ -27,12 +27,17 @@ export interface Action {
   readonly note?: string;
   /** Whether it can be done now; read as a signal is. Absent: always. */
   readonly applies?: () => boolean;
+  /** Whether its button is off although the key, which then says why, is not; read as a signal is. */
+  readonly isOff?: () => boolean;
   /** Whether what it turns on is on; read as a signal is. Absent: it turns nothing on. */
   readonly isOn?: () => boolean;
   readonly run: (event?: KeyboardEvent) => void;
 }
 
 export const labelOf = ({ label }: Action): string => (typeof label === 'string' ? label : label());
+
+/** Whether its button can be pressed; read as a signal is. */
+export const isReady = ({ applies, isOff }: Action): boolean => (applies?.() ?? true) && !(isOff?.() ?? false);
 
 /** A key or combination as it is written on buttons: "Ctrl Z". */
 export function keysOf({ keys, keysShown }: Action): string | undefined {

@@ -18,13 +18,14 @@ import { allModes, current, goTo } from './rooms.ts';
 import { Toast } from './toast.tsx';
 
 interface AppProps {
+  readonly modes: readonly Mode[];
   readonly stage: Stage;
   readonly scene: HTMLElement;
   /** Those of the mode that the page is in; read as a signal is. */
   readonly actions: () => readonly Action[];
 }
 
-export function App({ stage, scene, actions }: AppProps) {
+export function App({ modes, stage, scene, actions }: AppProps) {
   const now = current.value;
   const all = actions();
   return (
@@ -34,7 +35,7 @@ export function App({ stage, scene, actions }: AppProps) {
           <Logo />
           <span>soapfilm</span>
         </h1>
-        <ModeSwitch modes={allModes()} />
+        <ModeSwitch modes={modes} />
         {now && (
           <nav aria-label="Document">
             {inBar(all, 'document').map((action) => (

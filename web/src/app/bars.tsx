@@ -2,7 +2,7 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { signal } from '@preact/signals';
 import type { Pen } from '../state/store.ts';
-import { keysOf, labelOf, type Action, type Bar } from './actions.ts';
+import { isReady, keysOf, labelOf, type Action, type Bar } from './actions.ts';
 import { linear, NumberField } from './controls.tsx';
 import { Icon, type IconName } from './icons.tsx';
 
@@ -35,14 +35,14 @@ export function IconButton({ icon, label, text, keys, disabled, pressed, onClick
 }
 
 export function ActionButton({ action }: { action: Action }) {
-  const { icon = 'check', text, applies, isOn, run } = action;
+  const { icon = 'check', text, isOn, run } = action;
   return (
     <IconButton
       icon={typeof icon === 'string' ? icon : icon()}
       label={labelOf(action)}
       text={text}
       keys={keysOf(action)}
-      disabled={!(applies?.() ?? true)}
+      disabled={!isReady(action)}
       pressed={isOn?.()}
       onClick={() => { run(); }}
     />
@@ -134,7 +134,7 @@ export function ExportMenu({ actions }: BarProps) {
             <button
               key={action.id}
               type="button"
-              disabled={!(action.applies?.() ?? true)}
+              disabled={!isReady(action)}
               onClick={() => {
                 isMenuOpen.value = false;
                 action.run();

@@ -1,6 +1,16 @@
 // The content of a file, in the forms that telling its format and reading it need; each made once.
 
+/** Enough to tell a format by its beginning. */
+const kHeadBytes = 4096;
+
+/** Encodings besides UTF-8, by the two bytes that such a text begins with. */
+const kEncodings: readonly (readonly [first: number, second: number, name: string])[] = [
+  [0xff, 0xfe, 'utf-16le'],
+  [0xfe, 0xff, 'utf-16be'],
+];
+
 export class Content {
+  #head: string | undefined;
   #text: string | undefined;
   #json: { readonly value: unknown } | null | undefined;
 
@@ -12,12 +22,24 @@ export class Content {
 
   /** The beginning, as text, without leading white space. */
   get head(): string {
-    return new TextDecoder().decode(this.bytes.subarray(0, 4096)).trimStart();
+    this.#head ??= this.#decode(this.bytes.subarray(0, kHeadBytes)).trimStart();
+    return this.#head;
   }
 
+  /** The beginning without `#` comments, and without the white space before what is left. */
+  get start(): string {
+    return this.head.replace(/#.*/g, '').trimStart();
+  }
+
+  /** All of it, in whatever encoding it is; reading takes this rather than the bytes. */
   get text(): string {
-    this.#text ??= new TextDecoder().decode(this.bytes);
+    this.#text ??= this.#decode(this.bytes);
     return this.#text;
+  }
+
+  /** Whether it is text, as far as its beginning tells. */
+  get isText(): boolean {
+    return !this.head.includes('\0');
   }
 
   /** Undefined where it is not JSON. */
@@ -37,18 +59,33 @@ export class Content {
 
   /** Whether it looks like JSON, broken or not. */
   get isJson(): boolean {
-    return this.json !== undefined || /^[{[]/.test(this.head);
+    return this.isText && /^[{[]/.test(this.head);
   }
 
   /** The `type` of a JSON object. */
   get jsonType(): string | undefined {
-    const { json } = this;
-    const type = typeof json === 'object' && json !== null && 'type' in json ? json.type : undefined;
+    const type = this.#jsonObject?.type;
     return typeof type === 'string' ? type : undefined;
   }
 
-  /** Whether any line of an OBJ file begins with a statement. */
+  /** Whether it is a JSON object with such a key. */
+  hasKey(key: string): boolean {
+    return this.#jsonObject !== null && key in this.#jsonObject;
+  }
+
+  /** Whether any line is a statement of an OBJ file: its name, then numbers. */
   hasStatement(name: string): boolean {
-    return new RegExp(`^\\s*${name}\\s`, 'm').test(this.text);
+    return this.isText && new RegExp(`^[ \\t]*${name}[ \\t]+[-+.\\d]`, 'm').test(this.text);
+  }
+
+  get #jsonObject(): Record<string, unknown> | null {
+    const { json } = this;
+    return typeof json === 'object' && json !== null ? (json as Record<string, unknown>) : null;
+  }
+
+  #decode(bytes: Uint8Array): string {
+    const [first, second] = this.bytes;
+    const encoding = kEncodings.find((each) => each[0] === first && each[1] === second);
+    return new TextDecoder(encoding?.[2]).decode(bytes);
   }
 }

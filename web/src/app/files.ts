@@ -1,98 +1,186 @@
-// Files in and out: opening loops, saving loops, surfaces and pictures.
-import { SoapfilmError } from 'soapfilm';
-import { fromLoopSet, toLoopSet } from './document.ts';
-import type { Example } from './gallery.ts';
-import { isStale, surface } from './solving.ts';
-import { dispatch, doc, requestFrame, say, selection } from './store.ts';
+// Files in and out: opened by what is in them, or named with what can open them; saved as downloads.
+import type { Item } from '../state/document.ts';
+import { complain, say, settle } from '../state/notice.ts';
+import { choose, dispatch, ensureGroup, requestFrame } from '../state/store.ts';
+import { Content } from './content.ts';
+import type { FileKind, Mode, ReadFile, Room } from './mode.ts';
 
 /** Files beyond this are not drawn by anyone. */
 const kMaxMegabytes = 64;
+/** Of more files than this that were opened, not all are named. */
+const kMostNames = 3;
 
-type Formats = typeof import('./formats.ts');
-const fetchFormats = (): Promise<Formats> => import('./formats.ts');
+/** Where files are opened. */
+export interface Destination {
+  /** The mode that is shown. */
+  readonly mode: Mode;
+  readonly room: Room;
+  readonly modes: readonly Mode[];
+  /** Shows another mode; null if it could not be fetched. */
+  readonly go: (modeId: string) => Promise<{ readonly mode: Mode; readonly room: Room } | null>;
+}
 
-/** Reads a file for `open`, which tells what it has opened; says so, or what is wrong. */
-export async function readFile(
-  file: File,
-  open: (bytes: Uint8Array, stem: string) => string | Promise<string>,
-): Promise<void> {
+/** A file that was read, or why not. */
+type Outcome = { readonly file: File } & (
+  | { readonly is: 'read'; readonly content: ReadFile; readonly stem: string }
+  /** Of a format that another mode opens. */
+  | { readonly is: 'elsewhere'; readonly what: string; readonly opener: Mode }
+  /** Of a format that no mode opens; null: of none that is known. */
+  | { readonly is: 'foreign'; readonly what: string | null }
+  | { readonly is: 'broken'; readonly reason: string }
+);
+
+/**
+ * Opens all files that the mode reads, together and in place of what it has, as one step of the history; says so, and
+ * says of each other file what it is and what can open it.
+ */
+export async function openFiles(files: readonly File[], into: Destination): Promise<void> {
+  settle('file');
+  if (files.length === 0) return;
+  const outcomes: Outcome[] = [];
+  for (const file of files) outcomes.push(await read(file, into));
+  const opened = outcomes.filter((each) => each.is === 'read');
+  if (opened.length > 0) show(opened, into);
+  tell(outcomes, into);
+}
+
+async function read(file: File, { mode, room, modes }: Destination): Promise<Outcome> {
+  const broken = (reason: string): Outcome => ({ file, is: 'broken', reason });
   const megabytes = file.size / 2 ** 20;
-  if (megabytes > kMaxMegabytes) {
-    say(`“${file.name}” has ${Math.round(megabytes)} MB; no more than ${kMaxMegabytes} are opened.`, 'error');
-    return;
-  }
+  if (megabytes > kMaxMegabytes) return broken(`it has ${Math.round(megabytes)} MB; no more than ${kMaxMegabytes} are opened.`);
+  let bytes: Uint8Array;
   try {
-    const opened = await open(new Uint8Array(await file.arrayBuffer()), file.name.replace(/\.[^.]*$/, ''));
-    say(`Opened “${file.name}”: ${opened}.`);
-  } catch (error) {
-    const reason = error instanceof SoapfilmError ? error.message : 'the browser could not read it';
-    say(`Could not open “${file.name}”: ${reason}`, 'error');
+    bytes = new Uint8Array(await file.arrayBuffer());
+  } catch {
+    return broken('the browser could not read it');
+  }
+  const stem = file.name.replace(/\.[^.]*$/, '');
+  const content = new Content(bytes, stem);
+  if (content.head === '') return broken('it is empty');
+  const kind = kindIn(mode, content);
+  if (kind) {
+    try {
+      return { file, is: 'read', content: await room.read(kind.id, content), stem };
+    } catch (error) {
+      return broken(reasonOf(error, 'what reads files could not be loaded'));
+    }
+  }
+  for (const opener of modes) {
+    const what = kindIn(opener, content)?.what;
+    if (what !== undefined) return { file, is: 'elsewhere', what, opener };
+  }
+  return { file, is: 'foreign', what: await nameOf(content) };
+}
+
+const kindIn = ({ files }: Mode, content: Content): FileKind | undefined => files.find(({ isIt }) => isIt(content));
+
+async function nameOf(content: Content): Promise<string | null> {
+  try {
+    const { kKnownFiles } = await import('./known_files.ts');
+    return kKnownFiles.find(({ isIt }) => isIt(content))?.what ?? null;
+  } catch {
+    // Without the list of names: as if it had none.
+    return null;
   }
 }
 
-/** Opens a `.curve`, JSON or OBJ file in place of the document; says what is wrong if it cannot. */
-export const openFile = (file: File): Promise<void> =>
-  readFile(file, async (bytes, stem) => {
-    const { parseLoops } = await fetchFormats();
-    const loops = parseLoops(bytes);
-    const curves = fromLoopSet(loops);
-    selection.value = null;
-    dispatch({ type: 'open', name: loops.name ?? stem, curves });
-    requestFrame();
-    return countOf(curves.length, 'curve');
-  });
+/** Why something failed, in words; where a script could not be fetched, in these. */
+function reasonOf(error: unknown, unfetched: string): string {
+  // Browsers agree only on the class and on this word.
+  if (error instanceof TypeError && /import/i.test(error.message)) return unfetched;
+  return error instanceof Error ? error.message : String(error);
+}
 
-export function openExample(example: Example, variant: number | undefined, atOnce = false): void {
-  selection.value = null;
+function itemsOf(opened: readonly Extract<Outcome, { is: 'read' }>[]): Item[] {
+  return opened.flatMap(({ content }) => content.items);
+}
+
+function show(opened: readonly Extract<Outcome, { is: 'read' }>[], { mode, room }: Destination): void {
+  const [{ content, stem }] = opened;
+  const name = content.name ?? stem;
+  const more = opened.length - 1;
+  choose();
   dispatch({
     type: 'open',
-    name: variant === undefined ? example.title : `${example.title} (${variant})`,
-    curves: example.curves(variant),
-    settings: example.settings,
+    group: ensureGroup(mode.id, room.settings).id,
+    name: more === 0 ? name : `${name} and ${more} more`,
+    items: itemsOf(opened),
   });
-  requestFrame(example.view, atOnce);
+  requestFrame();
 }
 
-/** Downloads the surface as OBJ; returns whether there was one to be had. */
-export function saveSurface(): boolean {
-  const shown = surface.peek();
-  if (shown === null || isStale.peek()) {
-    say('There is no surface of these curves to export yet.', 'error');
-    return false;
+/** Says what has become of the files, in one remark. */
+function tell(outcomes: readonly Outcome[], into: Destination): void {
+  const opened = outcomes.filter((each) => each.is === 'read');
+  const elsewhere = outcomes.filter((each) => each.is === 'elsewhere');
+  const foreign = outcomes.filter((each) => each.is === 'foreign');
+  const sentences: string[] = [];
+  if (opened.length > 0) {
+    sentences.push(`Opened ${listed(quoted(opened), kMostNames)}: ${countOf(itemsOf(opened).length, ...into.room.nouns)}.`);
   }
-  const { name } = doc.peek();
-  save(`${fileStem()}.obj`, 'model/obj', ({ formatObj }) => formatObj(shown.span, { name }));
-  return true;
-}
-
-export function saveLoops(format: 'curve' | 'json'): boolean {
-  const { curves, name } = doc.peek();
-  if (curves.length === 0) {
-    say('There are no curves to export yet.', 'error');
-    return false;
+  for (const each of outcomes) {
+    if (each.is === 'broken') sentences.push(`Could not open “${each.file.name}”: ${ended(each.reason)}`);
   }
-  const type = format === 'json' ? 'application/json' : 'text/plain';
-  save(`${fileStem()}.${format}`, type, ({ formatLoops }) => formatLoops({ ...toLoopSet(curves), name }, format));
-  return true;
+  for (const alike of alikeIn(elsewhere)) {
+    const [{ what, opener }] = alike;
+    const names = listed(quoted(alike));
+    const are = alike.length === 1 ? `${names} is ${what}` : `${names} are each ${what}`;
+    sentences.push(`${are}: the mode ${opener.label} opens ${alike.length === 1 ? 'it' : 'them'}.`);
+  }
+  for (const alike of alikeIn(foreign)) {
+    const [{ what }] = alike;
+    const is = alike.length === 1 ? 'it is' : 'each is';
+    sentences.push(`Could not open ${listed(quoted(alike))}: ${is} ${what ? `${what}, which no mode opens` : 'in no format that is known here'}.`);
+  }
+  if (foreign.length > 0) sentences.push(`${into.mode.label} opens ${listed(into.mode.files.map(({ what }) => what), undefined, 'or')}.`);
+  const text = sentences.join(' ');
+  if (opened.length === outcomes.length) say(text, 'file');
+  else if (elsewhere.length === 0) complain(text, 'file');
+  else {
+    const { opener } = elsewhere[0];
+    const files = elsewhere.filter((each) => each.opener === opener).map(({ file }) => file);
+    complain(text, 'file', { label: `Open in ${opener.label}`, run: () => void openIn(opener, files, into) });
+  }
 }
 
-export function savePicture(picture: Blob): void {
-  download(`${fileStem()}.png`, picture, 'image/png');
+async function openIn(mode: Mode, files: readonly File[], from: Destination): Promise<void> {
+  const there = await from.go(mode.id);
+  if (there) await openFiles(files, { ...from, ...there });
 }
 
-function fileStem(): string {
-  const stem = doc.peek().name.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '');
+/** Those of the same format together. */
+function alikeIn<T extends { readonly what: string | null }>(outcomes: readonly T[]): T[][] {
+  const found = new Map<string | null, T[]>();
+  for (const each of outcomes) found.set(each.what, [...(found.get(each.what) ?? []), each]);
+  return [...found.values()];
+}
+
+const quoted = (outcomes: readonly Outcome[]): string[] => outcomes.map(({ file }) => `“${file.name}”`);
+
+/** "a, b and c"; of more than `most`: "a, b and 2 more". */
+export function listed(words: readonly string[], most = Infinity, last = 'and'): string {
+  const parts = words.length > most ? [...words.slice(0, most - 1), `${words.length - most + 1} more`] : words;
+  return parts.length < 2 ? parts.join('') : `${parts.slice(0, -1).join(', ')} ${last} ${parts[parts.length - 1]}`;
+}
+
+const ended = (sentence: string): string => (/[.!?]$/.test(sentence) ? sentence : `${sentence}.`);
+
+/** The name of a document as a file name without its extension. */
+export function fileStem(name: string): string {
+  const stem = name.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '');
   return stem === '' ? 'soapfilm' : stem;
 }
 
-/** Downloads what `write` makes, once it can. */
-function save(fileName: string, type: string, write: (formats: Formats) => string): void {
-  fetchFormats().then(
-    (formats) => {
-      download(fileName, write(formats), type);
+/** Downloads what `write` makes, once it can; says so if it cannot. */
+export function save(fileName: string, type: string, write: () => string | Blob | Promise<string | Blob>): void {
+  settle('export');
+  // Within a promise, so that errors of all kinds arrive in one place.
+  Promise.resolve().then(write).then(
+    (data) => {
+      download(fileName, data, type);
     },
-    () => {
-      say(`Could not save “${fileName}”: what writes files could not be loaded.`, 'error');
+    (error: unknown) => {
+      complain(`Could not save “${fileName}”: ${ended(reasonOf(error, 'what writes files could not be loaded'))}`, 'export');
     },
   );
 }

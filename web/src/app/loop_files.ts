@@ -1,5 +1,4 @@
 // Files of closed lines, which several modes read.
-import type { Content } from './content.ts';
 import type { FileKind } from './mode.ts';
 
 export const kLoopFiles: readonly FileKind[] = [
@@ -9,21 +8,21 @@ export const kLoopFiles: readonly FileKind[] = [
     label: '.curve',
     extensions: ['.curve', '.txt'],
     // The numbers of loops and of vertices, and then numbers only.
-    isIt: ({ head }) => /^\d+\s+\d+\s/.test(head),
+    isIt: ({ isText, start }) => isText && /^\d+\s+\d+(\s|$)/.test(start),
   },
   {
     id: 'loops-json',
     what: 'a JSON file of loops',
     label: 'JSON',
     extensions: ['.json'],
-    // Whatever is not JSON of something else: who reads it says what is wrong with it.
-    isIt: ({ isJson, jsonType }) => isJson && jsonType === undefined,
+    // Whatever is not JSON of something else, such as glTF: who reads it says what is wrong with it.
+    isIt: (content) => content.isJson && content.jsonType === undefined && !content.hasKey('asset'),
   },
   {
     id: 'obj-lines',
     what: 'an OBJ file of lines',
     label: 'OBJ',
     extensions: ['.obj'],
-    isIt: (content: Content) => content.hasStatement('v') && content.hasStatement('l'),
+    isIt: (content) => content.hasStatement('v') && content.hasStatement('l'),
   },
 ];

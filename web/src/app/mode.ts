@@ -85,6 +85,8 @@ export interface Room {
   readonly Panel: ComponentType;
   /** What floats over the scene besides what all modes have. */
   readonly Overlay?: ComponentType;
+  /** Dialogs of its own, opened by `openDialog`. */
+  readonly dialogs?: readonly { readonly id: string; readonly title: string; readonly Body: ComponentType }[];
   /** How to begin, over a scene with nothing in it: with the pen in hand, and on the button that puts it there. */
   readonly hint: { readonly drawing: string; readonly draw: string };
 }

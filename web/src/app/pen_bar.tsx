@@ -23,7 +23,7 @@ interface PenBarProps {
   /** What is drawn. */
   readonly of: string;
   /** Of what is in view. */
-  readonly radius: number;
+  readonly radius: () => number;
 }
 
 export function PenBar({ pen, of, radius }: PenBarProps) {
@@ -35,6 +35,7 @@ export function PenBar({ pen, of, radius }: PenBarProps) {
   };
   const isDrawing = tool.value === 'draw';
   if (!isDrawing && chosen.value === null) return null;
+  const reach = 2 * radius();
   const needsPlane = isDrawing || dragIn === 'plane';
   return (
     <div class={isFolded ? 'pen-bar floating folded' : 'pen-bar floating'} role="group" aria-label={isDrawing ? 'Pen' : 'Dragging'}>
@@ -64,7 +65,7 @@ export function PenBar({ pen, of, radius }: PenBarProps) {
             title="Of the plane along its normal"
             value={offset}
             min={-Infinity}
-            scale={linear(-2 * radius, 2 * radius)}
+            scale={linear(-reach, reach)}
             onChange={(value) => { change({ offset: value }); }}
           />
           <PenFields pen={pen.value} of={of} onChange={(next) => (pen.value = { ...pen.peek(), ...next })} />

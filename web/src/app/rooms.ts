@@ -47,9 +47,9 @@ export async function goTo(id: string): Promise<OpenedMode | null> {
   awaited.value = mode.id;
   let found = opened.get(mode.id) ?? null;
   if (found === null) {
+    let fetched: Awaited<ReturnType<Mode['fetch']>>;
     try {
-      const { openRoom } = await mode.fetch();
-      found = opened.get(mode.id) ?? enroll(mode, openRoom);
+      fetched = await mode.fetch();
     } catch (error) {
       console.warn(error);
       if (awaited.peek() !== mode.id) return null;
@@ -58,6 +58,7 @@ export async function goTo(id: string): Promise<OpenedMode | null> {
       explain(mode);
       return null;
     }
+    found = opened.get(mode.id) ?? enroll(mode, fetched.openRoom);
     // Another may have been asked for meanwhile.
     if (awaited.peek() !== mode.id) return found;
   }
@@ -97,7 +98,7 @@ function enroll(mode: Mode, openRoom: (stage: Stage) => Room): OpenedMode {
     if (lost > 0) complain(`${lost} objects of the draft could not be read and were left out.`, 'draft');
   }
   ensureGroup(mode.id, room.settings);
-  const group = groupOf(mode.id);
+  const group = groupOf(mode.id, room.settings);
   const scene = stage.addScene({ mode: mode.id, dimension: room.dimension, group, kinds: room.kinds, failures: room.failures });
   room.draw?.(scene);
   const made = { mode, room };

@@ -40,9 +40,10 @@ export function ensureGroup<S extends object>(of: string, settings: S): Group<S>
   return made;
 }
 
-/** A mode's group as it changes; `ensureGroup` has made it. */
-export function groupOf<S extends object>(of: string): ReadonlySignal<Group<S>> {
-  return computed(() => doc.value.groups.find((group) => group.mode === of) as Group<S>);
+/** A mode's group as it changes; an empty one with such settings until `ensureGroup` has made it. */
+export function groupOf<S extends object>(of: string, settings: S): ReadonlySignal<Group<S>> {
+  const none: Group<S> = { id: 0, mode: of, name: kUntitled, settings, items: [] };
+  return computed(() => (doc.value.groups.find((group) => group.mode === of) as Group<S> | undefined) ?? none);
 }
 
 /** The group of the mode that the page is in; null until it is there. */

@@ -1,12 +1,12 @@
 // The gallery: curves from formulas, each with the settings and the view that suit it.
-import { kPresets, type Settings } from './document.ts';
-import type { Point } from '../shapes/vec.ts';
+import type { Point } from '../../shapes/vec.ts';
+import { kPresets, type FilmSettings } from './settings.ts';
 
 export interface Example {
   readonly id: string;
   readonly title: string;
   readonly note: string;
-  readonly settings: Settings;
+  readonly settings: FilmSettings;
   /** From the curves towards the viewer. */
   readonly view: Point;
   /** Values of the parameter that `curves` takes, the default one first; none if it takes none. */
@@ -15,7 +15,7 @@ export interface Example {
 }
 
 const weightsOf = (id: string) => (kPresets.find((preset) => preset.id === id) ?? kPresets[0]).weights;
-const kSmooth: Settings = { weights: weightsOf('smooth'), objective: 'sum', candidates: 'auto' };
+const kSmooth: FilmSettings = { weights: weightsOf('smooth'), objective: 'sum', candidates: 'auto' };
 
 /** A closed curve of `count` vertices at t = 0 … 2π. */
 const closed = (count: number, at: (t: number) => Point): Point[] =>

@@ -1,16 +1,18 @@
 // The panel: what the span should be, what it came to, what is shown.
 import { useState } from 'preact/hooks';
 import type { CandidateSpace } from 'soapfilm';
-import { kPresets, presetOf, type RelativeWeights, type Settings } from '../state/document.ts';
-import { countOf } from '../state/files.ts';
-import { auto, setLive, solve, startSpan } from '../state/solving.ts';
-import { dispatch, doc, endGesture, selection } from '../state/store.ts';
-import { decades, NumberField, Section, Segments, Switch, type Choice } from './controls.tsx';
-import { Show } from './frame.tsx';
-import { Icon } from './icons.tsx';
+import { decades, NumberField, Section, Segments, Switch, type Choice } from '../../app/controls.tsx';
+import { countOf } from '../../app/files.ts';
+import { Icon } from '../../app/icons.tsx';
+import { Show } from '../../app/panel_parts.tsx';
+import { pointCount } from '../../shapes/lines.ts';
+import { choose, chosen, dispatch } from '../../state/store.ts';
+import { film, setFilm } from './film.ts';
 import { Result } from './result.tsx';
+import { curvesOf, kPresets, presetOf, type FilmSettings, type RelativeWeights } from './settings.ts';
+import { auto, spanning } from './spanning.ts';
 
-export function Inspector() {
+export function FilmPanel() {
   return (
     <>
       <Result />
@@ -21,10 +23,6 @@ export function Inspector() {
   );
 }
 
-const change = (settings: Partial<Settings>) => {
-  dispatch({ type: 'set', settings });
-};
-
 const kSpaces: readonly Choice<CandidateSpace>[] = [
   { value: 'auto', label: 'Auto', title: 'All triangles while that is quick, else Delaunay, then wider spaces' },
   { value: 'delaunay', label: 'Delaunay', title: 'The facets of the Delaunay tetrahedralization: fast, never crosses itself' },
@@ -32,7 +30,7 @@ const kSpaces: readonly Choice<CandidateSpace>[] = [
   { value: 'all', label: 'All', title: 'Every triple of vertices: the true optimum, for small curves' },
 ];
 
-const kObjectives: readonly Choice<Settings['objective']>[] = [
+const kObjectives: readonly Choice<FilmSettings['objective']>[] = [
   { value: 'sum', label: 'Sum', title: 'The least weighted sum' },
   { value: 'worst-dihedral', label: 'Worst angle', title: 'The least largest angle between neighbours; ties by the sum' },
 ];
@@ -45,18 +43,13 @@ const kWeights: readonly { key: keyof RelativeWeights; label: string; title: str
 const kWeightScale = decades(0.001, 1000);
 
 function Film() {
-  const { settings } = doc.value;
+  const { settings } = film.value;
   const preset = presetOf(settings.weights);
   const setWeight = (key: keyof RelativeWeights, value: number, passing: boolean) => {
     const weights = { ...settings.weights, [key]: value };
     // A span needs something to minimise.
     if (weights.area + weights.perimeter + weights.dihedral === 0) return;
-    setLive(passing);
-    dispatch({ type: 'set', settings: { weights } }, `weight ${key}`);
-    if (!passing) {
-      endGesture();
-      setLive(false);
-    }
+    setFilm({ weights }, `weight ${key}`, passing);
   };
   return (
     <Section
@@ -76,8 +69,8 @@ function Film() {
         choices={kPresets.map(({ id, label, title }) => ({ value: id, label, title }))}
         value={preset?.id ?? null}
         onChange={(id) => {
-          const chosen = kPresets.find((p) => p.id === id);
-          if (chosen) change({ weights: chosen.weights });
+          const found = kPresets.find((each) => each.id === id);
+          if (found) setFilm({ weights: found.weights });
         }}
       />
       <div class="stack">
@@ -100,7 +93,7 @@ function Film() {
         choices={kObjectives}
         value={settings.objective}
         onChange={(objective) => {
-          change({ objective });
+          setFilm({ objective });
         }}
       />
       <Segments
@@ -108,15 +101,15 @@ function Film() {
         choices={kSpaces}
         value={settings.candidates}
         onChange={(candidates) => {
-          change({ candidates });
+          setFilm({ candidates });
         }}
       />
       {!auto.value && (
         <button
           type="button"
           class="button primary wide"
-          disabled={doc.value.curves.length === 0 || solve.value.phase === 'running'}
-          onClick={startSpan}
+          disabled={film.value.items.length === 0 || spanning.state.value.phase === 'running'}
+          onClick={spanning.start}
         >
           Span the curves
         </button>
@@ -128,39 +121,41 @@ function Film() {
 const kManyCurves = 12;
 
 function Curves() {
-  const { curves } = doc.value;
+  const { id: group, items } = film.value;
+  const curves = curvesOf(film.value);
+  const state = spanning.state.value;
   const [all, setAll] = useState(false);
-  if (curves.length === 0) return null;
-  const listed = all ? curves : curves.slice(0, kManyCurves);
+  if (items.length === 0) return null;
+  const listed = all ? items : items.slice(0, kManyCurves);
   return (
-    <Section title="Curves" aside={<span class="count">{curves.length}</span>}>
+    <Section title="Curves" aside={<span class="count">{items.length}</span>}>
       <ul class="curves">
-        {listed.map((curve, c) => (
-          <li key={c} class={selection.value?.curve === c ? 'chosen' : ''}>
-            <button
-              type="button"
-              class="curve"
-              aria-pressed={selection.value?.curve === c}
-              onClick={() => (selection.value = selection.peek()?.curve === c ? null : { curve: c, vertex: null })}
-            >
-              <span>Curve {c + 1}</span>
-              <span class="count">{countOf(curve.length, 'vertex', 'vertices')}</span>
-            </button>
-            <button
-              type="button"
-              class="icon-button small"
-              aria-label={`Delete curve ${c + 1}`}
-              title="Delete"
-              onClick={() => {
-                dispatch({ type: 'delete-curve', curve: c });
-              }}
-            >
-              <Icon name="trash" />
-            </button>
-          </li>
-        ))}
+        {listed.map(({ id }, c) => {
+          const place = { item: id, part: 0, handle: null };
+          const isThis = chosen.value?.item === id;
+          const isFaulty = state.phase === 'failed' && state.faults.some((fault) => fault.place.item === id);
+          return (
+            <li key={id} class={`${isThis ? 'chosen' : ''} ${isFaulty ? 'faulty' : ''}`}>
+              <button type="button" class="curve" aria-pressed={isThis} onClick={() => { choose(isThis ? null : place); }}>
+                <span>Curve {c + 1}</span>
+                <span class="count">{countOf(pointCount(curves[c]), 'vertex', 'vertices')}</span>
+              </button>
+              <button
+                type="button"
+                class="icon-button small"
+                aria-label={`Delete curve ${c + 1}`}
+                title="Delete"
+                onClick={() => {
+                  dispatch({ type: 'delete', group, places: [place] });
+                }}
+              >
+                <Icon name="trash" />
+              </button>
+            </li>
+          );
+        })}
       </ul>
-      {curves.length > listed.length && (
+      {items.length > listed.length && (
         <button
           type="button"
           class="button wide"
@@ -168,7 +163,7 @@ function Curves() {
             setAll(true);
           }}
         >
-          Show all {curves.length}
+          Show all {items.length}
         </button>
       )}
     </Section>

@@ -1,10 +1,14 @@
 // What came of the span: cost and figures, or in words why there is none.
 import { useEffect, useState } from 'preact/hooks';
 import type { CandidateSpace, Span, SpaceUsed } from 'soapfilm';
-import { endSpan, isStale, solve, startSpan, surface, type Solve } from '../state/solving.ts';
-import { dispatch, doc } from '../state/store.ts';
-import { Section } from './controls.tsx';
-import { Icon } from './icons.tsx';
+import { Section } from '../../app/controls.tsx';
+import { Icon } from '../../app/icons.tsx';
+import { Row } from '../../app/panel_parts.tsx';
+import type { WorkState } from '../../state/work.ts';
+import { film, setFilm } from './film.ts';
+import { isStale, none, spanning, surface, type Bounds } from './spanning.ts';
+
+type StateIn<Phase> = Extract<WorkState<Bounds>, { readonly phase: Phase }>;
 
 const kSpaceNames: Record<SpaceUsed, string> = {
   all: 'all triangles',
@@ -19,13 +23,13 @@ const kWider: Partial<Record<SpaceUsed, { space: CandidateSpace; label: string }
 };
 
 export function Result() {
-  const state = solve.value;
+  const state = spanning.state.value;
   const span = surface.value?.span;
   return (
     <Section title="Result">
       {state.phase === 'running' && <Running state={state} />}
       {state.phase === 'failed' && <Failed state={state} />}
-      {state.phase === 'none' && <None state={state} />}
+      {state.phase === 'done' && none.value && <None candidates={none.value.candidates} />}
       {state.phase === 'cancelled' && <Cancelled />}
       {state.phase === 'idle' && <p class="muted">Nothing to span yet. Draw a closed curve, open a file, or take one from the gallery.</p>}
       {span && <Figures span={span} faded={isStale.value} />}
@@ -33,9 +37,10 @@ export function Result() {
   );
 }
 
-function Running({ state }: { state: Extract<Solve, { phase: 'running' }> }) {
+function Running({ state }: { state: StateIn<'running'> }) {
   const elapsed = useSecondsSince(state.since);
-  const hasBest = state.bestCost < Infinity && elapsed > 0;
+  const { bestCost = Infinity, lowerBound = 0 } = state.detail ?? {};
+  const hasBest = bestCost < Infinity && elapsed > 0;
   return (
     <div class="running">
       <div class="running-head">
@@ -43,15 +48,15 @@ function Running({ state }: { state: Extract<Solve, { phase: 'running' }> }) {
         <span class="count">
           {Math.floor(100 * state.fraction)} %{elapsed > 0 && `, ${elapsed} s`}
         </span>
-        <button type="button" class="button small" onClick={endSpan}>
+        <button type="button" class="button small" onClick={spanning.end}>
           {hasBest ? 'Stop' : 'Cancel'}
         </button>
       </div>
       <progress aria-label="Spanning" max={1} value={state.fraction} />
       {hasBest && (
         <p class="muted">
-          Best so far {figure(state.bestCost)}
-          {state.lowerBound > 0 && `, at least ${figure(state.lowerBound)}`}
+          Best so far {figure(bestCost)}
+          {lowerBound > 0 && `, at least ${figure(lowerBound)}`}
         </p>
       )}
     </div>
@@ -72,9 +77,9 @@ function useSecondsSince(since: number): number {
   return Math.max(0, Math.floor((now - since) / 1000));
 }
 
-function Failed({ state }: { state: Extract<Solve, { phase: 'failed' }> }) {
+function Failed({ state }: { state: StateIn<'failed'> }) {
   const isTooMuch =
-    ['too-large', 'out-of-memory', 'crashed'].includes(state.code) && doc.value.settings.candidates !== 'delaunay';
+    ['too-large', 'out-of-memory', 'crashed'].includes(state.code) && film.value.settings.candidates !== 'delaunay';
   return (
     <div class="message error">
       <p>{state.message}</p>
@@ -84,8 +89,8 @@ function Failed({ state }: { state: Extract<Solve, { phase: 'failed' }> }) {
           type="button"
           class="button"
           onClick={() => {
-            dispatch({ type: 'set', settings: { candidates: 'delaunay' } });
-            startSpan();
+            setFilm({ candidates: 'delaunay' });
+            spanning.start();
           }}
         >
           Take Delaunay triangles
@@ -95,21 +100,21 @@ function Failed({ state }: { state: Extract<Solve, { phase: 'failed' }> }) {
   );
 }
 
-function None({ state }: { state: Extract<Solve, { phase: 'none' }> }) {
-  const wider = kWider[state.candidates];
+function None({ candidates }: { candidates: SpaceUsed }) {
+  const wider = kWider[candidates];
   return (
     <div class="message">
       <p>
-        <strong>No surface in this space.</strong> No manifold surface on {doc.value.curves.length === 1 ? 'this curve' : 'these curves'} can
-        be made of {kSpaceNames[state.candidates]} alone.
+        <strong>No surface in this space.</strong> No manifold surface on {film.value.items.length === 1 ? 'this curve' : 'these curves'} can
+        be made of {kSpaceNames[candidates]} alone.
       </p>
       {wider && (
         <button
           type="button"
           class="button primary"
           onClick={() => {
-            dispatch({ type: 'set', settings: { candidates: wider.space } });
-            startSpan();
+            setFilm({ candidates: wider.space });
+            spanning.start();
           }}
         >
           {wider.label}
@@ -123,7 +128,7 @@ function Cancelled() {
   return (
     <div class="message">
       <p>Cancelled.</p>
-      <button type="button" class="button" onClick={startSpan}>
+      <button type="button" class="button" onClick={spanning.start}>
         Span again
       </button>
     </div>
@@ -162,15 +167,6 @@ function Figures({ span, faded }: { span: Span; faded: boolean }) {
         <Row name="Time" value={seconds(stats.seconds)} />
         {inserted > 0 && <Row name="Inserted" value={whole(inserted)} />}
       </dl>
-    </div>
-  );
-}
-
-export function Row(props: { name: string; value: string }) {
-  return (
-    <div>
-      <dt>{props.name}</dt>
-      <dd>{props.value}</dd>
     </div>
   );
 }

@@ -1,35 +1,38 @@
 // Errors in the words of the page: curves and vertices count from 1, as in its list of curves.
 import { SoapfilmError } from 'soapfilm';
-import type { Curve } from './document.ts';
+import { pointAt, pointCount, type Lines } from '../../shapes/lines.ts';
+import type { Item } from '../../state/document.ts';
+import type { Failure, Fault } from '../../state/work.ts';
+import type { FilmGroup } from './settings.ts';
 
-/** A curve of the document, one of its vertices, or the edge from that vertex to the next. */
-export interface Fault {
+/** A curve of the film by its number, and one of its vertices. */
+interface Culprit {
   readonly curve: number;
-  readonly vertex?: number;
-  readonly isEdge: boolean;
+  readonly vertex: number | undefined;
 }
 
-/** Why a span failed: its code, what to tell the user, and what to mark. */
-export interface Failure {
-  readonly code: string;
-  readonly message: string;
-  readonly faults: readonly Fault[];
-}
-
-export function describeFailure(error: unknown, curves: readonly Curve[]): Failure {
+export function describeFailure(error: unknown, { items }: FilmGroup): Failure {
   if (!(error instanceof SoapfilmError)) return { code: 'crashed', message: String(error), faults: [] };
   const isEdge = error.code === 'loops-intersect';
-  const faults: Fault[] = [];
+  const culprits: Culprit[] = [];
   const note = (curve: number | undefined, vertex: number | undefined) => {
-    if (curve === undefined || !(curve in curves)) return;
-    faults.push(vertex === undefined ? { curve, isEdge } : { curve, vertex, isEdge });
+    if (curve !== undefined && curve in items) culprits.push({ curve, vertex });
   };
   note(error.loop, error.vertex);
   note(error.otherLoop, error.otherVertex);
-  return { code: error.code, message: messageOf(error, faults), faults };
+  const faults = culprits.map(
+    ({ curve, vertex }): Fault => ({ place: { item: items[curve].id, part: 0, handle: vertex ?? null }, isEdge }),
+  );
+  const point = culprits.flatMap(({ curve, vertex }) => pointOf(items[curve], vertex)).at(0);
+  return { code: error.code, message: messageOf(error, culprits), faults, ...(point && { point }) };
 }
 
-function messageOf(error: SoapfilmError, [first, second]: readonly (Fault | undefined)[]): string {
+function pointOf({ shape }: Item, vertex: number | undefined) {
+  const curve = shape as Lines;
+  return vertex !== undefined && vertex < pointCount(curve) ? [pointAt(curve, vertex)] : [];
+}
+
+function messageOf(error: SoapfilmError, [first, second]: readonly (Culprit | undefined)[]): string {
   switch (error.code) {
     case 'too-large':
     case 'out-of-memory':
@@ -53,4 +56,4 @@ function messageOf(error: SoapfilmError, [first, second]: readonly (Fault | unde
   return error.message;
 }
 
-const placeOf = ({ curve, vertex }: Fault): string => `vertex ${(vertex ?? 0) + 1} of curve ${curve + 1}`;
+const placeOf = ({ curve, vertex }: Culprit): string => `vertex ${(vertex ?? 0) + 1} of curve ${curve + 1}`;
