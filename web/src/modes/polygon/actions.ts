@@ -10,7 +10,7 @@ import { beginFlooding, endFlooding, isFlooding } from './flooding.ts';
 import { polygonGroup, polygonKind } from './polygons.ts';
 import { triangulated } from './triangulating.ts';
 
-const hasPolygons = (): boolean => (polygonGroup.value?.items.length ?? 0) > 0;
+const hasPolygons = (): boolean => polygonGroup.value.items.length > 0;
 
 export const kActions: readonly Action[] = [
   {
@@ -60,26 +60,20 @@ function saveTriangles(): void {
 }
 
 function savePolygons(): void {
-  const group = polygonGroup.peek();
-  if (group === undefined) return;
-  const { name } = group;
-  const polygons = group.items.map(({ shape }) => shape as Lines);
+  const { name, items } = polygonGroup.peek();
+  const polygons = items.map(({ shape }) => shape as Lines);
   save(`${fileStem(name)}.geojson`, 'application/geo+json', async () => (await import('./write.ts')).writeGeoJSON(polygons, name));
 }
 
 export function openExample({ title, shape }: Example): void {
-  const group = polygonGroup.peek();
-  if (group === undefined) return;
   choose();
-  dispatch({ type: 'open', group: group.id, name: title, items: [newItem(polygonKind, shape())] });
+  dispatch({ type: 'open', group: polygonGroup.peek().id, name: title, items: [newItem(polygonKind, shape())] });
   requestFrame();
 }
 
 /** The first example, as what was there from the beginning. */
 export function beginWithExample(): void {
-  const group = polygonGroup.peek();
-  if (group === undefined) return;
   const { title, shape } = kExamples[0];
-  put({ ...group, name: title, items: [newItem(polygonKind, shape())] });
+  put({ ...polygonGroup.peek(), name: title, items: [newItem(polygonKind, shape())] });
   requestFrame(undefined, true);
 }

@@ -59,7 +59,7 @@ effect(() => {
 
 /** Floods all polygons that are valid, step by step from now on. */
 export function beginFlooding(): void {
-  wanted.value = polygonGroup.peek() ?? null;
+  wanted.value = polygonGroup.peek();
   work.start();
 }
 

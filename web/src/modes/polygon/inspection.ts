@@ -31,12 +31,12 @@ declare global {
 }
 
 const document = computed(() => ({
-  name: polygonGroup.value?.name ?? '',
-  polygons: (polygonGroup.value?.items ?? []).map(({ shape }) => ringsOf(shape as Lines)),
+  name: polygonGroup.value.name,
+  polygons: polygonGroup.value.items.map(({ shape }) => ringsOf(shape as Lines)),
 }));
 
 const selection = computed(() => {
-  const [place, items] = [chosen.value, polygonGroup.value?.items ?? []];
+  const [place, items] = [chosen.value, polygonGroup.value.items];
   const polygon = items.findIndex(({ id }) => id === place?.item);
   if (place === null || polygon < 0 || mode.value !== 'polygon') return null;
   const { part: ring, handle } = place;

@@ -9,7 +9,7 @@ import { openExample } from './actions.ts';
 import { kExamples } from './examples.ts';
 import { flooding } from './flooding.ts';
 import { ringPen } from './pen.ts';
-import { kSettings, polygonGroup, type PolygonSettings } from './polygons.ts';
+import { polygonGroup, type PolygonSettings } from './polygons.ts';
 import { failures, triangulated, work } from './triangulating.ts';
 import type { Triangulation } from './triangulation.ts';
 import './polygon.css';
@@ -17,8 +17,8 @@ import './polygon.css';
 /** More faults than this are only marked. */
 const kMostFaults = 3;
 
-const isEmpty = computed(() => (polygonGroup.value?.items.length ?? 0) === 0);
-const settings = computed(() => polygonGroup.value?.settings ?? kSettings);
+const isEmpty = computed(() => polygonGroup.value.items.length === 0);
+const settings = computed(() => polygonGroup.value.settings);
 
 /** Why there is no result, if there is none for good. */
 const trouble = computed(() => {
@@ -139,8 +139,7 @@ function Triangulating() {
 }
 
 function set(change: Partial<PolygonSettings>): void {
-  const id = polygonGroup.peek()?.id;
-  if (id !== undefined) dispatch({ type: 'set', group: id, settings: change });
+  dispatch({ type: 'set', group: polygonGroup.peek().id, settings: change });
 }
 
 function Examples() {

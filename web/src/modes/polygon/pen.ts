@@ -12,9 +12,8 @@ export const ringPen = signal<Pen>({ count: 24, smoothing: 0.3 });
 export const penTool: PenTool = { noun: 'ring', pen: () => ringPen.value, add: addRing };
 
 function addRing(points: readonly Point[]): void {
-  const group = polygonGroup.peek();
-  if (group === undefined) return;
-  const host = hostOf(group.items, points);
-  if (host) dispatch({ type: 'reshape', group: group.id, item: host.id, shape: withHole(host.shape as Lines, points) });
-  else dispatch({ type: 'add', group: group.id, items: [newItem(polygonKind, linesOf(2, [points]))] });
+  const { id, items } = polygonGroup.peek();
+  const host = hostOf(items, points);
+  if (host) dispatch({ type: 'reshape', group: id, item: host.id, shape: withHole(host.shape as Lines, points) });
+  else dispatch({ type: 'add', group: id, items: [newItem(polygonKind, linesOf(2, [points]))] });
 }

@@ -1,5 +1,4 @@
 // Polygons with holes in the plane, as objects of the document: line 0 is the outer ring, all others are holes.
-import type { ReadonlySignal } from '@preact/signals';
 import { lineKind, pointsOfLine } from '../../scene/line_kind.ts';
 import { lineCount, pointCount, type Lines } from '../../shapes/lines.ts';
 import type { Box, Point } from '../../shapes/vec.ts';
@@ -14,8 +13,8 @@ export type PolygonGroup = Group<PolygonSettings>;
 
 export const kSettings: PolygonSettings = { method: 'flooding', output: 'triangles', quality: 'fast', repair: 'none' };
 
-/** The polygons of the document; undefined until the mode is entered. */
-export const polygonGroup = groupOf<PolygonSettings>('polygon') as ReadonlySignal<PolygonGroup | undefined>;
+/** The polygons of the document. */
+export const polygonGroup = groupOf('polygon', kSettings);
 
 export const polygonKind = lineKind({
   name: kPolygon,

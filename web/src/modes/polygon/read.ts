@@ -10,7 +10,7 @@ import { polygonKind } from './polygons.ts';
 export async function readPolygons(kind: string, content: Content): Promise<ReadFile> {
   if (kind === 'geojson') return { items: polygonsOf(content.json).map((lines) => newItem(polygonKind, lines)) };
   const { parseLoops } = await import('../../app/formats.ts');
-  const { positions, starts, name } = parseLoops(content.bytes);
+  const { positions, starts, name } = parseLoops(content.text);
   if (starts.length < 2) throw bad('it has no loops');
   const n = positions.length / 3;
   const flat = new Float64Array(2 * n);

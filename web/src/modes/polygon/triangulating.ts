@@ -13,7 +13,7 @@ const latest = signal<Triangulation | null>(null);
 /** What is shown: of the polygons as they are, or as they were a moment ago; null: nothing yet. */
 export const triangulated = computed<Triangulation | null>(() => {
   const group = polygonGroup.value;
-  return group?.items.length === 0 ? nothingOf(group) : latest.value;
+  return group.items.length === 0 ? nothingOf(group) : latest.value;
 });
 
 export const failures = computed<readonly Failure[]>(() => {
@@ -28,7 +28,7 @@ effect(() => {
 
 export const work = createWork<PolygonGroup, Triangulation>({
   verb: 'Triangulating',
-  input: computed(() => (polygonGroup.value?.items.length ? polygonGroup.value : null)),
+  input: computed(() => (polygonGroup.value.items.length > 0 ? polygonGroup.value : null)),
   part: 'polygons',
   async compute(film, of, watch) {
     if (watch.live) {
