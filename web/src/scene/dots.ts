@@ -1,7 +1,13 @@
-// Round dots and diamonds of a size in pixels, such as vertices.
+// Dots of a size in pixels, such as vertices: round ones, diamonds and rings.
 import { BufferAttribute, BufferGeometry, Color, Points, ShaderMaterial } from 'three';
 import type { Point } from '../shapes/vec.ts';
 import { toScene, type Placement } from './placement.ts';
+
+export type DotForm = 'round' | 'diamond' | 'ring';
+const kForms: readonly DotForm[] = ['round', 'diamond', 'ring'];
+
+/** In CSS pixels. */
+const kRingWidth = 2.5;
 
 const kVertexShader = /* glsl */ `
 attribute float size;
@@ -17,21 +23,24 @@ void main() {
   vKind = kind;
   vec4 eye = modelViewMatrix * vec4(position, 1.0);
   // A little nearer along the line of sight, so that neither surface nor line cuts the dot.
-  gl_Position = projectionMatrix * vec4(isOrthographic ? eye.xyz : eye.xyz * 0.994, 1.0);
+  gl_Position = projectionMatrix * vec4(isOrthographic ? eye.xyz + vec3(0.0, 0.0, 0.01) : eye.xyz * 0.994, 1.0);
   gl_PointSize = vSize + 2.0;
 }`;
 
 const kFragmentShader = /* glsl */ `
 uniform vec3 uRim;
 uniform float uRimShare;
+uniform float uPixelRatio;
 varying vec3 vFill;
 varying float vSize;
 varying float vKind;
 void main() {
   vec2 p = (gl_PointCoord - 0.5) * (vSize + 2.0);
-  float radius = vKind > 0.5 ? (abs(p.x) + abs(p.y)) * 0.78 : length(p);
+  float radius = vKind > 0.5 && vKind < 1.5 ? (abs(p.x) + abs(p.y)) * 0.78 : length(p);
   float edge = vSize / 2.0;
   float alpha = 1.0 - smoothstep(edge - 0.7, edge + 0.7, radius);
+  float hole = edge - ${kRingWidth.toFixed(1)} * uPixelRatio;
+  if (vKind > 1.5) alpha *= smoothstep(hole - 0.7, hole + 0.7, radius);
   if (alpha < 0.02) discard;
   float core = edge * (1.0 - uRimShare);
   float inner = 1.0 - smoothstep(core - 0.7, core + 0.7, radius);
@@ -62,14 +71,14 @@ export class Dots {
   }
 
   /** Forgets all dots; `show` shows those that are put from now on. */
-  begin(placement: Placement): { put(point: Point, color: string, diameter: number, isDiamond?: boolean): void } {
+  begin(placement: Placement): { put(point: Point, color: string, diameter: number, form?: DotForm): void } {
     for (const list of [this.position, this.fill, this.size, this.kind]) list.length = 0;
     return {
-      put: (point, color, diameter, isDiamond = false) => {
+      put: (point, color, diameter, form = 'round') => {
         this.position.push(...toScene(placement, point));
         this.fill.push(...this.rgb(color));
         this.size.push(diameter);
-        this.kind.push(isDiamond ? 1 : 0);
+        this.kind.push(kForms.indexOf(form));
       },
     };
   }

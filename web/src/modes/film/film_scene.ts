@@ -57,7 +57,7 @@ export class FilmScene {
       const { inserted: color, rim } = theme.value.curves;
       if (span) {
         for (let at = span.positions.length - 3 * span.inserted.length; at < span.positions.length; at += 3) {
-          dots.put([span.positions[at], span.positions[at + 1], span.positions[at + 2]], color, kInserted, true);
+          dots.put([span.positions[at], span.positions[at + 1], span.positions[at + 2]], color, kInserted, 'diamond');
         }
       }
       this.inserted.show(view.renderer.getPixelRatio(), rim);

@@ -1,179 +1,60 @@
-// The page's other mode: polygons with holes, drawn or opened, triangulated as they change.
-import { useEffect, useRef, useState } from 'preact/hooks';
+// The panel of the mode: what triangulating came to, how it is done, the pen, examples.
 import { computed } from '@preact/signals';
-import type { SoapfilmError } from 'soapfilm';
-import { inWindow, valuesOf } from '../inspection.ts';
-import { attachPolygonPointer } from '../scene/polygon_pointer.ts';
-import { PolygonView } from '../scene/polygon_view.ts';
-import type { Point2 } from '../shapes/plane.ts';
-import { countOf } from '../state/files.ts';
-import {
-  flooding,
-  history,
-  loadError,
-  polygonDoc,
-  polygonTool,
-  ringPen,
-  selectedRing,
-  startPolygons,
-  triangulated,
-  type PolygonSettings,
-  type Triangulated,
-} from '../state/polygon.ts';
-import { kPolygonExamples, onFrame, openPolygonExample, openPolygonFile } from '../state/polygon_files.ts';
-import { HistoryButtons, OpenButton, PenFields, ToolBar, ViewBar } from './bars.tsx';
-import { Section, Segments, type Choice } from './controls.tsx';
-import { Frame, Hint, Show } from './frame.tsx';
-import { attachPolygonKeys, deleteChosen, toggleFlooding } from './polygon_keys.ts';
-import { Row } from './result.tsx';
-import '../styles/polygon.css';
+import { PenFields } from '../../app/bars.tsx';
+import { Section, Segments, type Choice } from '../../app/controls.tsx';
+import { countOf } from '../../app/files.ts';
+import { Row, Show } from '../../app/panel_parts.tsx';
+import { dispatch, tool } from '../../state/store.ts';
+import { openExample } from './actions.ts';
+import { kExamples } from './examples.ts';
+import { flooding } from './flooding.ts';
+import { ringPen } from './pen.ts';
+import { polygonGroup, type PolygonSettings } from './polygons.ts';
+import { failures, triangulated, work } from './triangulating.ts';
+import type { Triangulation } from './triangulation.ts';
+import './polygon.css';
 
-export { openPolygonFile, polygonDoc };
+/** More faults than this are only marked. */
+const kMostFaults = 3;
 
-const summary = computed(() => {
-  const found = triangulated.value;
-  if (loadError.value !== null) return `soapfilm could not be loaded: ${loadError.value}`;
-  if (found === null) return 'Loading…';
-  if (polygonDoc.value.polygons.length === 0) return 'No polygons yet';
-  if (found.errors.length > 0) return wordsFor(found.errors[0]);
-  return `${countOf(found.triangles.length / 3, 'triangle')}, ${milliseconds(found.seconds)}`;
+const isEmpty = computed(() => polygonGroup.value.items.length === 0);
+const settings = computed(() => polygonGroup.value.settings);
+
+/** Why there is no result, if there is none for good. */
+const trouble = computed(() => {
+  const state = work.state.value;
+  if (state.phase === 'cancelled') return 'Ended before there was a result.';
+  if (state.phase !== 'failed') return null;
+  return state.code === 'load-failed' ? `soapfilm could not be loaded: ${state.message}` : state.message;
 });
 
-/** What is wrong with a polygon in the words of the page: polygons and rings count from 1. */
-function wordsFor({ code, message, polygon = 0, loop = 0, vertex, otherLoop = 0 }: SoapfilmError): string {
-  const of = polygonDoc.value.polygons.length > 1 ? `Polygon ${polygon + 1}: ` : '';
-  const ring = (r: number): string => (r === 0 ? 'the outer ring' : `hole ${r}`);
-  const words: Partial<Record<typeof code, string>> = {
-    'self-intersecting': `${ring(loop)} crosses or overlaps itself.`,
-    'holes-overlap': `${ring(loop)} and ${ring(otherLoop)} cross or overlap.`,
-    'hole-outside': `${ring(loop)} is not inside the outer ring.`,
-    'nested-hole': `${ring(loop)} lies inside ${ring(otherLoop)}.`,
-    degenerate:
-      vertex === undefined
-        ? `${ring(loop)} has fewer than three distinct points.`
-        : `${ring(loop)} has a spike.`,
-    'not-finite': `a coordinate of ${ring(loop)} is larger than can be reckoned with.`,
-  };
-  const text = of + (words[code] ?? message);
-  return text[0].toUpperCase() + text.slice(1);
-}
+export const summary = computed(() => {
+  if (isEmpty.value) return 'No polygons yet';
+  if (trouble.value !== null) return trouble.value;
+  const found = triangulated.value;
+  if (found === null) return 'Loading…';
+  if (failures.value.length > 0) return failures.value[0].message;
+  return `${countOf(found.triangles.length / 3, 'triangle')}, ${milliseconds(found.seconds)}`;
+});
 
 const milliseconds = (seconds: number): string =>
   `${Number((1000 * seconds).toPrecision(2)).toLocaleString('en')} ms`;
 
-export function PolygonMode() {
-  const canvas = useRef<HTMLCanvasElement>(null);
-  const [view, setView] = useState<PolygonView | null>(null);
-  const isEmpty = polygonDoc.value.polygons.length === 0;
-  useEffect(() => {
-    if (canvas.current === null) return;
-    const made = new PolygonView(canvas.current);
-    onFrame(() => {
-      made.frameAll();
-    });
-    attachPolygonKeys(made, attachPolygonPointer(made));
-    setView(made);
-    if (polygonDoc.peek().polygons.length === 0) {
-      openPolygonExample(kPolygonExamples[0]);
-      history.forgetHistory();
-    }
-    void startPolygons();
-    exposeForInspection(made);
-  }, []);
+export function Panel() {
   return (
-    <Frame
-      of="polygon"
-      label="Polygons"
-      summary={summary.value}
-      panel={
-        <>
-          <Result />
-          <Triangulation />
-          {polygonTool.value === 'draw' && (
-            <Section title="Pen">
-              <div class="stack">
-                <PenFields pen={ringPen.value} of="ring" onChange={(change) => (ringPen.value = { ...ringPen.peek(), ...change })} />
-              </div>
-            </Section>
-          )}
-          <Examples />
-          <Show labels={{ surface: 'Triangles', wires: 'Edges', vertices: 'Vertices' }} />
-        </>
-      }
-    >
-      <div class="scene">
-        <canvas
-          ref={canvas}
-          tabIndex={0}
-          role="application"
-          aria-label="Polygons. Arrows move the view or the chosen vertex; comma and full stop choose a vertex."
-          data-tool={polygonTool.value}
-        />
-      </div>
-      {isEmpty && (
-        <Hint
-          tool={polygonTool}
-          drawing="Draw one stroke all the way round: it closes when you let go. A ring drawn inside another is a hole."
-          draw="Draw a polygon"
-        />
+    <>
+      <Result />
+      <Triangulating />
+      {tool.value === 'draw' && (
+        <Section title="Pen">
+          <div class="stack">
+            <PenFields pen={ringPen.value} of="ring" onChange={(change) => (ringPen.value = { ...ringPen.peek(), ...change })} />
+          </div>
+        </Section>
       )}
-      <ToolBar
-        tool={polygonTool}
-        bin={{ label: 'Delete what is chosen', disabled: selectedRing.value === null, onClick: deleteChosen }}
-        clear={{
-          label: 'Clear all polygons',
-          disabled: isEmpty,
-          onClick: () => {
-            history.dispatch({ type: 'clear' });
-          },
-        }}
-      />
-      {view && (
-        <ViewBar
-          play={{
-            isOn: flooding.value !== null,
-            label: flooding.value ? 'Stop flooding' : 'Flood step by step',
-            disabled: isEmpty,
-            onClick: toggleFlooding,
-          }}
-          frameAll={() => {
-            view.frameAll();
-          }}
-        />
-      )}
-      <Step />
-    </Frame>
-  );
-}
-
-/** The buttons of the bar at the top that are this mode's own. */
-export function PolygonNav() {
-  return (
-    <nav aria-label="Document">
-      <OpenButton of="polygons" accept=".geojson,.json,.curve,.obj,.txt" open={openPolygonFile} />
-      <HistoryButtons of={history} />
-    </nav>
-  );
-}
-
-const kActions = {
-  start: 'Start at a bottom',
-  raise: 'Raise the water',
-  fill: 'Fill the gorge',
-  bridge: 'Bridge to a sag',
-  spill: 'Spill over a top',
-  jump: 'Jump to the other bank',
-};
-
-function Step() {
-  const now = flooding.value;
-  if (now === null) return null;
-  const { action, triangles } = now.steps[now.taken];
-  return (
-    <div class="flood-step floating" aria-hidden="true">
-      <strong>{kActions[action]}</strong>
-      <span class="muted">{countOf(triangles, 'triangle')}</span>
-    </div>
+      <Examples />
+      <Show labels={{ surface: 'Triangles', wires: 'Edges', vertices: 'Vertices' }} />
+    </>
   );
 }
 
@@ -181,16 +62,23 @@ function Result() {
   const found = triangulated.value;
   return (
     <Section title="Result">
-      {loadError.value !== null && <p class="message error">{loadError.value}</p>}
-      {found?.errors.slice(0, 3).map((error) => (
-        <div class="message error" key={error.polygon}>
-          <p>{wordsFor(error)}</p>
+      {trouble.value !== null && (
+        <div class="message error">
+          <p>{trouble.value}</p>
+          <button type="button" class="button small" onClick={() => { work.start(); }}>
+            Try again
+          </button>
+        </div>
+      )}
+      {failures.value.slice(0, kMostFaults).map(({ message }, i) => (
+        <div class="message error" key={i}>
+          <p>{message}</p>
           <p class="muted">
-            The place is marked in red. {polygonDoc.value.settings.repair === 'none' && 'With Repair on, it is triangulated all the same.'}
+            The place is marked in red. {settings.value.repair === 'none' && 'With Repair on, it is triangulated all the same.'}
           </p>
         </div>
       ))}
-      {polygonDoc.value.polygons.length === 0 ? (
+      {isEmpty.value ? (
         <p class="muted">No polygons yet. Draw one, open a file, or take an example.</p>
       ) : (
         found && <Figures found={found} />
@@ -199,7 +87,7 @@ function Result() {
   );
 }
 
-function Figures({ found }: { found: Triangulated }) {
+function Figures({ found }: { found: Triangulation }) {
   const count = found.triangles.length / 3;
   const strips = found.stripStarts.length - 1;
   const rows: readonly (readonly [string, string])[] = [
@@ -238,34 +126,28 @@ const kRepairs: readonly Choice<PolygonSettings['repair']>[] = [
   { value: 'nonzero', label: 'Nonzero', title: 'Inside is where rings wind at all' },
 ];
 
-function Triangulation() {
-  const { settings } = polygonDoc.value;
-  const set = (change: Partial<PolygonSettings>): void => {
-    history.dispatch({ type: 'set', settings: change });
-  };
+function Triangulating() {
+  const { method, output, quality, repair } = settings.value;
   return (
     <Section title="Triangulation">
-      <Segments label="Method" choices={kMethods} value={settings.method} onChange={(method) => { set({ method }); }} />
-      <Segments label="Output" choices={kOutputs} value={settings.output} onChange={(output) => { set({ output }); }} />
-      <Segments label="Quality" choices={kQualities} value={settings.quality} onChange={(quality) => { set({ quality }); }} />
-      <Segments label="Repair" choices={kRepairs} value={settings.repair} onChange={(repair) => { set({ repair }); }} />
+      <Segments label="Method" choices={kMethods} value={method} onChange={(value) => { set({ method: value }); }} />
+      <Segments label="Output" choices={kOutputs} value={output} onChange={(value) => { set({ output: value }); }} />
+      <Segments label="Quality" choices={kQualities} value={quality} onChange={(value) => { set({ quality: value }); }} />
+      <Segments label="Repair" choices={kRepairs} value={repair} onChange={(value) => { set({ repair: value }); }} />
     </Section>
   );
+}
+
+function set(change: Partial<PolygonSettings>): void {
+  dispatch({ type: 'set', group: polygonGroup.peek().id, settings: change });
 }
 
 function Examples() {
   return (
     <Section title="Examples">
       <div class="polygon-examples">
-        {kPolygonExamples.map((example) => (
-          <button
-            key={example.title}
-            type="button"
-            class="button"
-            onClick={() => {
-              openPolygonExample(example);
-            }}
-          >
+        {kExamples.map((example) => (
+          <button key={example.title} type="button" class="button" onClick={() => { openExample(example); }}>
             {example.title}
           </button>
         ))}
@@ -274,8 +156,24 @@ function Examples() {
   );
 }
 
-function exposeForInspection(view: PolygonView): void {
-  window.__polygons = Object.assign(valuesOf({ document: polygonDoc, triangulated, flooding, selection: selectedRing }), {
-    whereIs: (point: Point2) => inWindow(view.canvas, ...view.toScreen(point)),
-  });
+const kSteps = {
+  start: 'Start at a bottom',
+  raise: 'Raise the water',
+  fill: 'Fill the gorge',
+  bridge: 'Bridge to a sag',
+  spill: 'Spill over a top',
+  jump: 'Jump to the other bank',
+};
+
+/** The step of the flood that is shown, over the scene. */
+export function Step() {
+  const now = flooding.value;
+  if (now === null) return null;
+  const { action, triangles } = now.flood.steps[now.taken];
+  return (
+    <div class="flood-step floating" aria-hidden="true">
+      <strong>{kSteps[action]}</strong>
+      <span class="muted">{countOf(triangles, 'triangle')}</span>
+    </div>
+  );
 }

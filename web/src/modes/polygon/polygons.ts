@@ -1,195 +1,118 @@
-// Polygons in the plane: the document, its commands and history, and what triangulating it comes to.
-import { computed, signal } from '@preact/signals';
-import {
-  load,
-  SoapfilmError,
-  triangulatePolygon,
-  triangulatePolygons,
-  type FloodStep,
-  type PolygonOptions,
-} from 'soapfilm';
-import type { Point2 } from '../shapes/plane.ts';
-import { createHistory } from './history.ts';
-import { say, type Tool } from './store.ts';
+// Polygons with holes in the plane, as objects of the document: line 0 is the outer ring, all others are holes.
+import { lineKind, pointsOfLine } from '../../scene/line_kind.ts';
+import { lineCount, pointCount, type Lines } from '../../shapes/lines.ts';
+import type { Box, Point } from '../../shapes/vec.ts';
+import { boxOfItem, type Group, type Item, type Place } from '../../state/document.ts';
+import { groupOf } from '../../state/store.ts';
+import type { PolygonOptions } from 'soapfilm';
 
-export type Ring = readonly Point2[];
-/** The outer ring, then the holes. */
-export type Polygon = readonly Ring[];
+export const kPolygon = 'polygon';
 
 export type PolygonSettings = Required<Pick<PolygonOptions, 'method' | 'output' | 'quality' | 'repair'>>;
+export type PolygonGroup = Group<PolygonSettings>;
 
-export interface PolygonDocument {
-  readonly name: string;
-  readonly polygons: readonly Polygon[];
-  readonly settings: PolygonSettings;
-}
+export const kSettings: PolygonSettings = { method: 'flooding', output: 'triangles', quality: 'fast', repair: 'none' };
 
-/** A ring, or one of its vertices. */
-export interface RingPlace {
-  readonly polygon: number;
-  readonly ring: number;
-  /** Null: the whole ring. */
-  readonly vertex: number | null;
-}
-type VertexPlace = RingPlace & { readonly vertex: number };
+/** The polygons of the document. */
+export const polygonGroup = groupOf('polygon', kSettings);
 
-export type PolygonCommand =
-  /** A hole where it has a point inside a polygon, else a polygon. */
-  | { readonly type: 'add-ring'; readonly points: Ring }
-  | { readonly type: 'move-vertex'; readonly at: VertexPlace; readonly to: Point2 }
-  /** Deletes a vertex, or a ring; with its outer ring a polygon goes. */
-  | { readonly type: 'delete'; readonly at: RingPlace }
-  | { readonly type: 'clear' }
-  | { readonly type: 'open'; readonly name: string; readonly polygons: readonly Polygon[] }
-  | { readonly type: 'set'; readonly settings: Partial<PolygonSettings> };
+export const polygonKind = lineKind({
+  name: kPolygon,
+  dim: 2,
+  style: { width: 2, chosenWidth: 3, dot: 6, chosenDot: 12, hoverDot: 9, hasRim: false, mostDots: 4000 },
+  // With its outer ring a polygon is moved as a whole.
+  pointsAt: (lines, { part, handle }) => {
+    if (handle !== null) return [handle];
+    return part === 0 ? Array.from({ length: pointCount(lines) }, (_, i) => i) : pointsOfLine(lines, part);
+  },
+  remove: withoutPlaces,
+});
 
-const kEmpty: PolygonDocument = {
-  name: 'Untitled',
-  polygons: [],
-  settings: { method: 'flooding', output: 'triangles', quality: 'fast', repair: 'none' },
-};
-
-/** The document after a command; the same object where nothing changes. */
-export function applyToPolygons(document: PolygonDocument, command: PolygonCommand): PolygonDocument {
-  const { polygons, settings } = document;
-  switch (command.type) {
-    case 'add-ring': {
-      const host = polygons.findIndex(([outer]) => command.points.some((p) => isInside(p, outer)));
-      if (host < 0) return { ...document, polygons: [...polygons, [command.points]] };
-      return withPolygon(document, host, [...polygons[host], command.points]);
-    }
-    case 'move-vertex': {
-      const { polygon, ring, vertex } = command.at;
-      const moved = polygons[polygon][ring].map((p, v) => (v === vertex ? command.to : p));
-      return withRing(document, polygon, ring, moved);
-    }
-    case 'delete': {
-      const { polygon, ring, vertex } = command.at;
-      const points = polygons[polygon][ring];
-      if (vertex !== null && points.length > 3) {
-        return withRing(document, polygon, ring, points.filter((_, v) => v !== vertex));
-      }
-      if (ring === 0) return { ...document, polygons: polygons.filter((_, p) => p !== polygon) };
-      return withPolygon(document, polygon, polygons[polygon].filter((_, r) => r !== ring));
-    }
-    case 'clear':
-      return polygons.length === 0 ? document : { ...document, name: kEmpty.name, polygons: [] };
-    case 'open':
-      return { ...document, name: command.name, polygons: command.polygons };
-    case 'set': {
-      const next = { ...settings, ...command.settings };
-      const isSame = (Object.keys(next) as (keyof PolygonSettings)[]).every((key) => next[key] === settings[key]);
-      return isSame ? document : { ...document, settings: next };
-    }
+/**
+ * The polygon without some vertices and rings: a ring that would keep fewer than three vertices goes, and with its
+ * outer ring the polygon. A ring that nothing is taken from stays as it is.
+ */
+export function withoutPlaces(lines: Lines, places: readonly Place[]): Lines | null {
+  const { dim, positions, starts } = lines;
+  const taken = new Uint8Array(pointCount(lines));
+  const rings = new Set<number>();
+  for (const { part, handle } of places) {
+    if (handle === null) rings.add(part);
+    else taken[handle] = 1;
   }
+  const keptPositions = new Float64Array(positions.length);
+  const keptStarts = [0];
+  let count = 0;
+  for (let ring = 0; ring < lineCount(lines); ring++) {
+    const first = count;
+    for (let i = starts[ring]; i < starts[ring + 1]; i++) {
+      if (taken[i] === 1) continue;
+      for (let axis = 0; axis < dim; axis++) keptPositions[dim * count + axis] = positions[dim * i + axis];
+      count++;
+    }
+    const left = count - first;
+    if (rings.has(ring) || (left < 3 && left < starts[ring + 1] - starts[ring])) {
+      if (ring === 0) return null;
+      count = first;
+    } else keptStarts.push(count);
+  }
+  return { dim, positions: keptPositions.slice(0, dim * count), starts: Uint32Array.from(keptStarts) };
 }
 
-function withPolygon(document: PolygonDocument, index: number, polygon: Polygon): PolygonDocument {
-  return { ...document, polygons: document.polygons.map((old, p) => (p === index ? polygon : old)) };
-}
-
-function withRing(document: PolygonDocument, polygon: number, index: number, ring: Ring): PolygonDocument {
-  const rings = document.polygons[polygon].map((old, r) => (r === index ? ring : old));
-  return withPolygon(document, polygon, rings);
-}
-
-function isInside([x, y]: Point2, ring: Ring): boolean {
-  let inside = false;
-  ring.forEach(([ax, ay], i) => {
-    const [bx, by] = ring[(i + 1) % ring.length];
-    if (ay > y !== by > y && x < ax + ((y - ay) / (by - ay)) * (bx - ax)) inside = !inside;
+/** The polygon with one more hole. */
+export function withHole({ dim, positions, starts }: Lines, hole: readonly Point[]): Lines {
+  const n = starts[starts.length - 1];
+  const longer = new Float64Array(positions.length + dim * hole.length);
+  longer.set(positions);
+  hole.forEach(([x, y], i) => {
+    longer.set([x, y], dim * (n + i));
   });
+  return { dim, positions: longer, starts: Uint32Array.from([...starts, n + hole.length]) };
+}
+
+/** The first polygon whose outer ring has one of the points inside. */
+export function hostOf(items: readonly Item[], points: readonly Point[]): Item | undefined {
+  return items.find((item) => {
+    const box = boxOfItem(item);
+    return points.some((point) => isInBox(point, box) && isInside(point, item.shape as Lines));
+  });
+}
+
+const isInBox = ([x, y]: Point, { low, high }: Box): boolean => x >= low[0] && x <= high[0] && y >= low[1] && y <= high[1];
+
+/** Whether a point is inside the outer ring of a polygon. */
+function isInside([x, y]: Point, { positions, starts }: Lines): boolean {
+  let inside = false;
+  for (let i = 0, before = starts[1] - 1; i < starts[1]; before = i++) {
+    const [ax, ay, bx, by] = [positions[2 * before], positions[2 * before + 1], positions[2 * i], positions[2 * i + 1]];
+    if (ay > y !== by > y && x < ax + ((y - ay) / (by - ay)) * (bx - ax)) inside = !inside;
+  }
   return inside;
 }
 
-export const selectedRing = signal<RingPlace | null>(null);
-export const polygonTool = signal<Tool>('select');
-/** Vertices of a drawn ring, and how much the hand is smoothed. */
-export const ringPen = signal({ count: 24, smoothing: 0.3 });
-
-export const history = createHistory(kEmpty, applyToPolygons, ({ polygons }) => {
-  const at = selectedRing.peek();
-  if (at === null) return;
-  const ring = polygons.at(at.polygon)?.at(at.ring);
-  if (ring === undefined || (at.vertex ?? 0) >= ring.length) selectedRing.value = null;
-});
-export const polygonDoc = history.doc;
-
-/** Triangles of all polygons, and what is wrong with those that have none. */
-export interface Triangulated {
-  /** `[2n]` the rings' vertices one after the other, then those that repair added. */
+/** All polygons of a group as flat arrays, in the form that the library takes; the arrays are new. */
+export interface FlatPolygons {
   readonly positions: Float64Array;
-  readonly added: number;
-  readonly triangles: Uint32Array;
-  readonly strips: Uint32Array;
-  readonly stripStarts: Uint32Array;
-  readonly errors: readonly SoapfilmError[];
-  readonly seconds: number;
+  readonly ringStarts: Uint32Array;
+  readonly polygonStarts: Uint32Array;
 }
 
-const isReady = signal(false);
-export const loadError = signal<string | null>(null);
-
-/** Loads the core for this thread: polygons take a moment that is shorter than the way to a worker. */
-export async function startPolygons(): Promise<void> {
-  try {
-    await load({ parts: ['polygons'] });
-    isReady.value = true;
-  } catch (error) {
-    loadError.value = error instanceof Error ? error.message : String(error);
+export function flatten(items: readonly Item[]): FlatPolygons {
+  let [vertices, rings] = [0, 0];
+  for (const { shape } of items) {
+    vertices += pointCount(shape as Lines);
+    rings += lineCount(shape as Lines);
   }
-}
-
-export const triangulated = computed<Triangulated | null>(() => {
-  if (!isReady.value) return null;
-  const { polygons, settings } = polygonDoc.value;
-  const since = performance.now();
-  const found = triangulatePolygons(polygons, { ...settings, skipInvalid: true });
-  const seconds = (performance.now() - since) / 1000;
-  const { triangles, strips, stripStarts, errors } = found;
-  const positions = Float64Array.from([...polygons.flat(2).flat(), ...found.added]);
-  return { positions, added: found.added.length / 2, triangles, strips, stripStarts, errors, seconds };
-});
-
-/** Flooding on its way: the steps of all polygons, and how many of them have been taken. */
-export interface Flooding {
-  readonly triangles: Uint32Array;
-  readonly steps: readonly FloodStep[];
-  readonly taken: number;
-}
-export const flooding = signal<Flooding | null>(null);
-// What is flooded has changed.
-polygonDoc.subscribe(() => {
-  flooding.value = null;
-});
-
-/** Floods all polygons that are valid, step by step from now on. */
-export function beginFlooding(): void {
-  const triangles: number[] = [];
-  const steps: FloodStep[] = [];
-  let first = 0;
-  for (const polygon of polygonDoc.peek().polygons) {
-    const before = triangles.length / 3;
-    try {
-      const found = triangulatePolygon(polygon, { trace: true });
-      for (const step of found.trace) {
-        const { action, left, right } = step;
-        steps.push({ action, left: first + left, right: first + right, triangles: before + step.triangles });
-      }
-      for (const v of found.triangles) triangles.push(first + v);
-    } catch (error) {
-      if (!(error instanceof SoapfilmError)) throw error;
-    }
-    first += polygon.flat().length;
-  }
-  if (steps.length === 0) say('There is nothing to flood: only polygons that need no repair are.');
-  else flooding.value = { triangles: Uint32Array.from(triangles), steps, taken: 0 };
-}
-
-/** The next steps; the end shows everything for good. */
-export function floodOn(count: number): void {
-  const now = flooding.peek();
-  if (now === null) return;
-  const taken = now.taken + count;
-  flooding.value = taken >= now.steps.length ? null : { ...now, taken };
+  const positions = new Float64Array(2 * vertices);
+  const ringStarts = new Uint32Array(rings + 1);
+  const polygonStarts = new Uint32Array(items.length + 1);
+  let [vertex, ring] = [0, 0];
+  items.forEach(({ shape }, p) => {
+    const lines = shape as Lines;
+    positions.set(lines.positions, 2 * vertex);
+    for (let r = 1; r < lines.starts.length; r++) ringStarts[++ring] = vertex + lines.starts[r];
+    vertex += pointCount(lines);
+    polygonStarts[p + 1] = ring;
+  });
+  return { positions, ringStarts, polygonStarts };
 }
