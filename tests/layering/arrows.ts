@@ -157,8 +157,8 @@ function judgeLibrary({ path: file, text }: SourceFile): string[] {
  * the modes, as `modes`; or above all, as the empty string.
  */
 function placeInPage(file: string): { readonly layer: string; readonly mode?: string } {
-  const [, , folder, name, ...below] = file.split('/');
-  if (name === undefined) return { layer: '' };
+  const [folder, name, ...below] = file.slice('web/src/'.length).split('/');
+  if (!file.slice('web/src/'.length).includes('/')) return { layer: '' };
   if (folder !== 'modes') return { layer: folder };
   return below.length === 0 ? { layer: 'modes' } : { layer: 'mode', mode: name };
 }

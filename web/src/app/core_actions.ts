@@ -157,7 +157,7 @@ function coreActions(stage: Stage, tools: Tools): readonly Action[] {
     { id: 'handle after', label: 'Next vertex', keys: ['.'], run: () => { stepHandle(1); } },
     {
       id: 'delete',
-      label: () => (chosen.value?.handle == null ? `Delete the chosen ${nouns()[0]}` : 'Delete the chosen vertex'),
+      label: () => (typeof chosen.value?.handle === 'number' ? 'Delete the chosen vertex' : `Delete the chosen ${nouns()[0]}`),
       help: 'Delete the chosen vertex, or all that is chosen',
       section: 'Edit',
       keys: ['delete', 'backspace'],

@@ -3,7 +3,7 @@ import { Group, type Object3D } from 'three';
 import { boxOfLines, lineCount, lineOf, moved, nextPoint, pointAt, pointCount, readLines, type Lines } from '../shapes/lines.ts';
 import type { Item, Place } from '../state/document.ts';
 import { Dots } from './dots.ts';
-import { distanceOf, distanceToSegment, type Eye, type Spot } from './eye.ts';
+import { distanceOf, distanceToSegment, type Eye, type Projected, type Spot } from './eye.ts';
 import { FatLines, segmentsOf } from './fat_line.ts';
 import type { Drawn, DrawnKind, Hit, Layer, Marks } from './kind.ts';
 
@@ -52,20 +52,28 @@ export function pointsOfLine({ starts }: Lines, line: number): number[] {
 
 export function pickLines(lines: Lines, eye: Eye, at: Spot, reach: number): Hit | null {
   const projected = Array.from({ length: pointCount(lines) }, (_, i) => eye.project(pointAt(lines, i)));
-  let best: Hit | null = null;
+  return nearestPoint(lines, projected, at, reach) ?? nearestLine(lines, projected, at, reach);
+}
+
+function nearestPoint(lines: Lines, projected: readonly Projected[], at: Spot, reach: number): Hit | null {
+  let [nearest, least] = [-1, reach];
   projected.forEach((p, i) => {
     const distance = p.visible ? distanceOf(p, at) : Infinity;
-    if (distance < (best?.distance ?? reach)) best = { part: lineOf(lines, i), handle: i, distance };
+    if (distance < least) [nearest, least] = [i, distance];
   });
-  if (best !== null) return best;
+  return nearest < 0 ? null : { part: lineOf(lines, nearest), handle: nearest, distance: least };
+}
+
+function nearestLine(lines: Lines, projected: readonly Projected[], at: Spot, reach: number): Hit | null {
+  let [nearest, least] = [-1, reach];
   for (let line = 0; line < lineCount(lines); line++) {
     for (let i = lines.starts[line]; i < lines.starts[line + 1]; i++) {
       const [a, b] = [projected[i], projected[nextPoint(lines, line, i)]];
       const distance = a.visible && b.visible ? distanceToSegment(at, a, b) / kLineReach : Infinity;
-      if (distance < ((best as Hit | null)?.distance ?? reach)) best = { part: line, handle: null, distance };
+      if (distance < least) [nearest, least] = [line, distance];
     }
   }
-  return best;
+  return nearest < 0 ? null : { part: nearest, handle: null, distance: least };
 }
 
 const linesIn = (item: Item): Lines => item.shape as Lines;

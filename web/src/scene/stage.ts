@@ -4,7 +4,7 @@ import { effect, signal } from '@preact/signals';
 import { coordinatePlane, viewPlane, type Frame } from '../shapes/plane.ts';
 import type { Point } from '../shapes/vec.ts';
 import { boxOfGroup, type Place } from '../state/document.ts';
-import { drawingPlane, framing, shown, tool } from '../state/store.ts';
+import { drawingPlane, framing, shown, tool, type DrawingPlane } from '../state/store.ts';
 import { PlaneGrid } from './grid.ts';
 import { kIdentity } from './placement.ts';
 import { ModeScene, type ModeSceneOptions } from './mode_scene.ts';
@@ -32,11 +32,12 @@ export class Stage {
       this.grid.setColors(theme.grid);
     });
     this.view.onCamera(() => {
-      if (drawingPlane.peek().plane === 'view') this.placeGrid();
+      const plane = drawingPlane.peek();
+      // The plane that faces the viewer, and the grid's size, go with the eye.
+      this.placeGrid(plane, shown.peek().grid, tool.peek() === 'draw', this.current.peek());
     });
     effect(() => {
-      void [drawingPlane.value, shown.value.grid, tool.value, this.current.value?.options.group.value];
-      this.placeGrid();
+      this.placeGrid(drawingPlane.value, shown.value.grid, tool.value === 'draw', this.current.value);
     });
     effect(() => {
       this.current.value?.viewpoint.setButtons(tool.value === 'draw');
@@ -106,15 +107,11 @@ export class Stage {
     this.view.invalidate();
   }
 
-  /** As the state is now. */
-  private placeGrid(): void {
-    const scene = this.current.peek();
-    const isDrawing = tool.peek() === 'draw';
+  private placeGrid({ plane }: DrawingPlane, isShown: boolean, isDrawing: boolean, scene: ModeScene | null): void {
     const isInSpace = scene !== null && scene.options.dimension === 3;
-    this.grid.mesh.visible = isInSpace && (shown.peek().grid || isDrawing);
+    this.grid.mesh.visible = isInSpace && (isShown || isDrawing);
     if (isInSpace) {
-      const { radius } = scene.viewpoint;
-      this.grid.place(drawingPlane.peek().plane, this.drawingPlane(), radius, isDrawing, scene.placement.peek());
+      this.grid.place(plane, this.drawingPlane(), scene.viewpoint.radius, isDrawing, scene.placement.value);
     }
     this.view.invalidate();
   }

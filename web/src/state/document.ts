@@ -76,7 +76,7 @@ const kinds = new Map<string, Kind<unknown>>();
 
 /** Makes a kind known, before the first object of it. */
 export function registerKind<S>(kind: Kind<S>): void {
-  kinds.set(kind.name, kind as Kind<unknown>);
+  kinds.set(kind.name, kind);
 }
 
 export function kindOf({ kind }: Item): Kind<unknown> {

@@ -63,9 +63,9 @@ export interface Work<Detail = unknown> {
   readonly verb: string;
   readonly state: ReadonlySignal<WorkState<Detail>>;
   /** Begins, in place of what is still running. */
-  start(): void;
+  readonly start: () => void;
   /** Ends what is running; what it has found so far is kept if it can be. */
-  end(): void;
+  readonly end: () => void;
 }
 
 /** A change arrives in pieces (slider, drag): wait this long for the next. */
