@@ -1,9 +1,8 @@
 // Triangulating the polygons as they change, in the worker.
 import { computed, effect, signal } from '@preact/signals';
-import type { Film } from 'soapfilm/worker';
 import { isLive } from '../../state/store.ts';
 import { createWork, plainFailure, type Failure } from '../../state/work.ts';
-import { DragSession, type Sessions } from './drag_session.ts';
+import { DragSession } from './drag_session.ts';
 import { polygonGroup, type PolygonGroup } from './polygons.ts';
 import { nothingOf, triangulateAll, type Triangulation } from './triangulation.ts';
 import { failureOf } from './wording.ts';
@@ -32,7 +31,7 @@ export const work = createWork<PolygonGroup, Triangulation>({
   part: 'polygons',
   async compute(film, of, watch) {
     if (watch.live) {
-      const passing = await session.triangulate(film as Film & Sessions, latest.peek(), of, watch.signal);
+      const passing = await session.triangulate(film, latest.peek(), of, watch.signal);
       if (passing) {
         watch.onlyForNow();
         return passing;
