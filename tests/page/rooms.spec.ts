@@ -102,23 +102,26 @@ test('countries at 1 : 50 million: drawn, no task longer than a few of those tha
     });
     return times.sort((a, b) => a - b)[2];
   }, geojson);
-  await page.evaluate(() => {
+  await page.evaluate((text) => {
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([text], 'countries.geojson'));
     const tasks: number[] = [];
-    new PerformanceObserver((list) => {
-      for (const { duration } of list.getEntries()) tasks.push(duration);
-    }).observe({ type: 'longtask' });
+    const watch = () => {
+      new PerformanceObserver((list) => {
+        for (const { duration } of list.getEntries()) tasks.push(duration);
+      }).observe({ type: 'longtask' });
+      document.body.dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    };
     Object.assign(window, { tasks });
-  });
-  await page.getByLabel('File of polygons').setInputFiles({
-    name: 'countries.geojson',
-    mimeType: 'application/geo+json',
-    buffer: Buffer.from(geojson),
-  });
-  await page.waitForFunction(() => (window.__polygons?.triangulated?.triangles.length ?? 0) > 3 * 90_000);
-  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+    setTimeout(watch, 100);
+  }, geojson);
+  await page.waitForFunction(() => (window.__polygons?.triangulated?.triangles.length ?? 0) > 3 * 80_000);
+  const nextPicture = () => page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  await nextPicture();
+  await expect(page.getByText(/Opened “countries.geojson”: 1,\d+ polygons/)).toBeVisible();
   await page.mouse.move(300, 300);
   await page.mouse.wheel(0, -200);
-  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  await nextPicture();
   const tasks = await page.evaluate(() => (window as unknown as { tasks: number[] }).tasks);
   const longest = Math.max(0, ...tasks);
   console.log(`longest task ${longest.toFixed(0)} ms; reading the file as JSON ${parse.toFixed(0)} ms`);

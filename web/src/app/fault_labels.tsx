@@ -1,14 +1,17 @@
 // What is wrong, in words beside the object concerned.
 import { useEffect, useState } from 'preact/hooks';
-import type { Projected } from '../scene/eye.ts';
+import { distanceOf, type Projected, type Spot } from '../scene/eye.ts';
 import type { Stage } from '../scene/stage.ts';
 import type { Point } from '../shapes/vec.ts';
 import { handlesAt, kindOf } from '../state/document.ts';
 import { itemBy } from '../state/store.ts';
 import type { Failure } from '../state/work.ts';
 
-/** More would hide what they are about; the panel lists them. */
+/** More, or closer together, would hide what they are about; the panel lists them. In CSS pixels. */
 const kMost = 3;
+const kApart = 90;
+/** What a label may need to the right of its place and below it, in CSS pixels. */
+const kRoom = [280, 90] as const;
 
 interface FaultLabelsProps {
   readonly stage: Stage;
@@ -24,16 +27,25 @@ export function FaultLabels({ stage, failures }: FaultLabelsProps) {
       setMoved((count) => count + 1);
     });
   }, [stage, isNeeded]);
-  const labels = failures.slice(0, kMost).flatMap((failure) => {
+  const labels: { readonly failure: Failure; readonly at: Spot }[] = [];
+  for (const failure of failures) {
     const at = placeOf(stage, failure);
-    return at ? [{ failure, at }] : [];
-  });
+    if (at && labels.length < kMost && labels.every((other) => distanceOf(other.at, at) > kApart)) labels.push({ failure, at });
+  }
+  const [width, height] = stage.view.size;
   return (
     <div class="fault-labels" aria-hidden="true">
       {labels.map(({ failure, at }, i) => (
-        <div key={i} class="fault-label" style={{ transform: `translate(${at.x.toFixed(0)}px, ${at.y.toFixed(0)}px)` }}>
-          <span>{failure.message}</span>
-        </div>
+        <span
+          key={i}
+          class="fault-label"
+          style={{
+            ...(at.x < width - kRoom[0] ? { left: `${at.x.toFixed(0)}px` } : { right: `${(width - at.x).toFixed(0)}px` }),
+            ...(at.y < height - kRoom[1] ? { top: `${at.y.toFixed(0)}px` } : { bottom: `${(height - at.y).toFixed(0)}px` }),
+          }}
+        >
+          {failure.message}
+        </span>
       ))}
     </div>
   );

@@ -60,7 +60,10 @@ async function read(file: File, { mode, room, modes }: Destination): Promise<Out
   const kind = kindIn(mode, content);
   if (kind) {
     try {
-      return { file, is: 'read', content: await room.read(kind.id, content), stem };
+      await nextTask();
+      const found = await room.read(kind.id, content);
+      await nextTask();
+      return { file, is: 'read', content: found, stem };
     } catch (error) {
       return broken(reasonOf(error, 'what reads files could not be loaded'));
     }
@@ -71,6 +74,9 @@ async function read(file: File, { mode, room, modes }: Destination): Promise<Out
   }
   return { file, is: 'foreign', what: await nameOf(content) };
 }
+
+/** Between the steps of a large file the page has a moment for its user. */
+const nextTask = (): Promise<void> => new Promise((resolve) => setTimeout(resolve));
 
 const kindIn = ({ files }: Mode, content: Content): FileKind | undefined => files.find(({ isIt }) => isIt(content));
 

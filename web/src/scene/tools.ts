@@ -17,6 +17,7 @@ import {
   choose,
   chosen,
   dispatch,
+  drawingPlane,
   endGesture,
   group,
   hover,
@@ -93,6 +94,13 @@ export class Tools {
       if (this.isMine(event)) this.cancel();
     });
     container.addEventListener('pointerleave', () => (hover.value = null));
+    // Seen from elsewhere, or another: the plane may be drawn in again.
+    stage.view.onCamera(() => {
+      settle('plane');
+    });
+    drawingPlane.subscribe(() => {
+      settle('plane');
+    });
   }
 
   /** Ends what the pointer has begun, without effect; says whether there was anything. */
