@@ -3,7 +3,7 @@ import { Group, type Object3D } from 'three';
 import { boxOfLines, lineCount, lineOf, moved, nextPoint, pointAt, pointCount, readLines, type Lines } from '../shapes/lines.ts';
 import type { Item, Place } from '../state/document.ts';
 import { Dots } from './dots.ts';
-import { distanceOf, distanceToSegment, type Eye, type Spot } from './eye.ts';
+import { distanceOf, distanceToSegment, type Eye, type Projected, type Spot } from './eye.ts';
 import { FatLines, segmentsOf } from './fat_line.ts';
 import type { Drawn, DrawnKind, Hit, Layer, Marks } from './kind.ts';
 
@@ -51,18 +51,20 @@ export function pointsOfLine({ starts }: Lines, line: number): number[] {
 }
 
 export function pickLines(lines: Lines, eye: Eye, at: Spot, reach: number): Hit | null {
-  const projected = Array.from({ length: pointCount(lines) }, (_, i) => eye.project(pointAt(lines, i)));
+  const projected: Projected[] = [];
   let best: Hit | null = null;
-  projected.forEach((p, i) => {
+  for (let i = 0; i < pointCount(lines); i++) {
+    const p = eye.project(pointAt(lines, i));
+    projected.push(p);
     const distance = p.visible ? distanceOf(p, at) : Infinity;
     if (distance < (best?.distance ?? reach)) best = { part: lineOf(lines, i), handle: i, distance };
-  });
+  }
   if (best !== null) return best;
   for (let line = 0; line < lineCount(lines); line++) {
     for (let i = lines.starts[line]; i < lines.starts[line + 1]; i++) {
       const [a, b] = [projected[i], projected[nextPoint(lines, line, i)]];
       const distance = a.visible && b.visible ? distanceToSegment(at, a, b) / kLineReach : Infinity;
-      if (distance < ((best as Hit | null)?.distance ?? reach)) best = { part: line, handle: null, distance };
+      if (distance < (best?.distance ?? reach)) best = { part: line, handle: null, distance };
     }
   }
   return best;
