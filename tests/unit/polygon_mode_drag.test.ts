@@ -1,9 +1,18 @@
 // Dragging a vertex in the mode of polygons: by a session of its polygon, with the rest as it was.
-import { load, PolygonSession, SoapfilmError, triangulatePolygons, type PolygonsLike, type PolygonsOptions } from 'soapfilm';
+import {
+  load,
+  PolygonSession,
+  SoapfilmError,
+  triangulatePolygons,
+  type Point2Like,
+  type PolygonLike,
+  type PolygonsLike,
+  type PolygonsOptions,
+} from 'soapfilm';
 import { beforeAll, describe, expect, test } from 'vitest';
 import { DragSession, type Sessions } from '../../web/src/modes/polygon/drag_session.ts';
 import { kSettings, polygonKind, type PolygonGroup, type PolygonSettings } from '../../web/src/modes/polygon/polygons.ts';
-import { triangulateAll, type Triangulation, type Triangulator } from '../../web/src/modes/polygon/triangulation.ts';
+import { triangulateAll, type Triangulation } from '../../web/src/modes/polygon/triangulation.ts';
 import { linesOf, type Lines } from '../../web/src/shapes/lines.ts';
 import { apply, newItem, registerKind } from '../../web/src/state/document.ts';
 import { trianglesArea } from '../support/triangulation.js';
@@ -17,7 +26,7 @@ const square = (x: number, size: number): number[][] => [[x, 0], [x + size, 0], 
 const kSignal = new AbortController().signal;
 
 /** The library, asynchronous as in a worker, with an account of its sessions. */
-class FakeFilm implements Triangulator, Sessions {
+class FakeFilm implements Sessions {
   opened = 0;
   moves = 0;
   disposed = 0;
@@ -33,7 +42,7 @@ class FakeFilm implements Triangulator, Sessions {
     return triangulatePolygons(polygons, options);
   }
 
-  async createPolygonSession(polygon: Parameters<Sessions['createPolygonSession']>[0]) {
+  async createPolygonSession(polygon: PolygonLike) {
     await this.gate;
     const session = new PolygonSession(polygon);
     this.opened++;
@@ -41,7 +50,7 @@ class FakeFilm implements Triangulator, Sessions {
       get triangles() {
         return Promise.resolve(session.triangles);
       },
-      move: async (vertex: number, point: readonly [number, number]) => {
+      move: async (vertex: number, point: Point2Like) => {
         this.moves++;
         await Promise.resolve();
         this.beforeMove();

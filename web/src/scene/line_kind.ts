@@ -51,29 +51,23 @@ export function pointsOfLine({ starts }: Lines, line: number): number[] {
 }
 
 export function pickLines(lines: Lines, eye: Eye, at: Spot, reach: number): Hit | null {
-  const projected = Array.from({ length: pointCount(lines) }, (_, i) => eye.project(pointAt(lines, i)));
-  return nearestPoint(lines, projected, at, reach) ?? nearestLine(lines, projected, at, reach);
-}
-
-function nearestPoint(lines: Lines, projected: readonly Projected[], at: Spot, reach: number): Hit | null {
-  let [nearest, least] = [-1, reach];
-  projected.forEach((p, i) => {
+  const projected: Projected[] = [];
+  let best: Hit | null = null;
+  for (let i = 0; i < pointCount(lines); i++) {
+    const p = eye.project(pointAt(lines, i));
+    projected.push(p);
     const distance = p.visible ? distanceOf(p, at) : Infinity;
-    if (distance < least) [nearest, least] = [i, distance];
-  });
-  return nearest < 0 ? null : { part: lineOf(lines, nearest), handle: nearest, distance: least };
-}
-
-function nearestLine(lines: Lines, projected: readonly Projected[], at: Spot, reach: number): Hit | null {
-  let [nearest, least] = [-1, reach];
+    if (distance < (best?.distance ?? reach)) best = { part: lineOf(lines, i), handle: i, distance };
+  }
+  if (best !== null) return best;
   for (let line = 0; line < lineCount(lines); line++) {
     for (let i = lines.starts[line]; i < lines.starts[line + 1]; i++) {
       const [a, b] = [projected[i], projected[nextPoint(lines, line, i)]];
       const distance = a.visible && b.visible ? distanceToSegment(at, a, b) / kLineReach : Infinity;
-      if (distance < least) [nearest, least] = [line, distance];
+      if (distance < (best?.distance ?? reach)) best = { part: line, handle: null, distance };
     }
   }
-  return nearest < 0 ? null : { part: nearest, handle: null, distance: least };
+  return best;
 }
 
 const linesIn = (item: Item): Lines => item.shape as Lines;

@@ -56,6 +56,8 @@ export interface WorkOptions<Input extends object, Result, Detail> {
   readonly begin?: (input: Input) => void;
   /** Whether changes are worked on without being asked; by default yes. */
   readonly auto?: ReadonlySignal<boolean>;
+  /** Whether work is begun during gestures however long it took before; by default only work that was quick. */
+  readonly alwaysLive?: boolean;
 }
 
 export interface Work<Detail = unknown> {
@@ -99,7 +101,7 @@ function threadsFor(part: Part): Promise<Film> {
 export function createWork<Input extends object, Result, Detail = never>(
   options: WorkOptions<Input, Result, Detail>,
 ): Work<Detail> {
-  const { input, part, compute, show, explain, begin, auto } = options;
+  const { input, part, compute, show, explain, begin, auto, alwaysLive = false } = options;
   const state = signal<WorkState<Detail>>({ phase: 'idle' });
   let running: AbortController | null = null;
   let timer: ReturnType<typeof setTimeout> | undefined;
@@ -114,7 +116,7 @@ export function createWork<Input extends object, Result, Detail = never>(
     clearTimeout(timer);
     timer = setTimeout(
       () => {
-        if (isLive.peek() && (running !== null || lastMs > kLiveMs)) return;
+        if (isLive.peek() && (running !== null || (lastMs > kLiveMs && !alwaysLive))) return;
         start();
       },
       isLive.peek() ? 0 : kSettleMs,
@@ -130,6 +132,8 @@ export function createWork<Input extends object, Result, Detail = never>(
     try {
       const film = await threadsFor(part);
       if (!isMine()) return;
+      // Starting the threads says nothing of the work.
+      const begunAt = performance.now();
       const result = await compute(film, of, {
         signal: mine.signal,
         live,
@@ -143,7 +147,7 @@ export function createWork<Input extends object, Result, Detail = never>(
       });
       if (!isMine()) return;
       running = null;
-      lastMs = performance.now() - since;
+      lastMs = performance.now() - begunAt;
       batch(() => {
         show(result, of, live);
         state.value = { phase: 'done' };

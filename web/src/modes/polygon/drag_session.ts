@@ -1,24 +1,17 @@
 // Dragging a vertex: its polygon stays in the library as a session while the gesture lasts, so that a move costs what
 // changes around the vertex.
 import { SoapfilmError, type PolygonEdit } from 'soapfilm';
+import type { Film, PolygonSessionHandle } from 'soapfilm/worker';
 import type { Lines } from '../../shapes/lines.ts';
 import type { Id, Item } from '../../state/document.ts';
 import { flatten, type PolygonGroup } from './polygons.ts';
 import { withPolygon, type OfOnePolygon, type Triangulation, type Triangulator } from './triangulation.ts';
 
-/** A session as it is used here: the library's `PolygonSessionHandle`. */
-export interface SessionHandle {
-  readonly triangles: Promise<Uint32Array>;
-  move(vertex: number, point: readonly [number, number]): Promise<PolygonEdit>;
-  dispose(): void;
-}
-
-export interface Sessions {
-  createPolygonSession(
-    polygon: { readonly positions: Float64Array; readonly starts: Uint32Array },
-    options: { readonly signal: AbortSignal },
-  ): Promise<SessionHandle>;
-}
+/** What of the library this needs. */
+export type Sessions = Triangulator & {
+  createPolygonSession(...args: Parameters<Film['createPolygonSession']>): Promise<SessionHandle>;
+};
+type SessionHandle = Pick<PolygonSessionHandle, 'triangles' | 'move' | 'dispose'>;
 
 interface OpenSession {
   readonly handle: SessionHandle;
@@ -46,7 +39,7 @@ export class DragSession {
    * @param before the latest triangulation
    */
   triangulate(
-    film: Triangulator & Sessions,
+    film: Sessions,
     before: Triangulation | null,
     of: PolygonGroup,
     signal: AbortSignal,
@@ -69,7 +62,7 @@ export class DragSession {
   }
 
   private async next(
-    film: Triangulator & Sessions,
+    film: Sessions,
     latest: Triangulation | null,
     of: PolygonGroup,
     signal: AbortSignal,

@@ -1,5 +1,5 @@
 // Triangles in the plane, flat, with their edges; some of them in colours of their own.
-import { BufferAttribute, BufferGeometry, Color, Mesh, ShaderMaterial, Sphere, SRGBColorSpace } from 'three';
+import { BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, ShaderMaterial, Sphere, SRGBColorSpace } from 'three';
 import type { Placement } from '../../scene/placement.ts';
 import type { SurfaceColors } from '../../scene/theme.ts';
 
@@ -44,6 +44,8 @@ export class Fill {
     const material = new ShaderMaterial({
       vertexShader: kVertexShader,
       fragmentShader: kFragmentShader,
+      // Every other triangle of a strip runs the other way round.
+      side: DoubleSide,
       depthTest: false,
       depthWrite: false,
       uniforms: { uColors: { value: this.colors }, uWire: { value: new Color() }, uWireOpacity: { value: 1 } },

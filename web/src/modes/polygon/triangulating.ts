@@ -29,6 +29,8 @@ export const work = createWork<PolygonGroup, Triangulation>({
   verb: 'Triangulating',
   input: computed(() => (polygonGroup.value.items.length > 0 ? polygonGroup.value : null)),
   part: 'polygons',
+  // A session answers at once, of however many polygons.
+  alwaysLive: true,
   async compute(film, of, watch) {
     if (watch.live) {
       const passing = await session.triangulate(film, latest.peek(), of, watch.signal);
