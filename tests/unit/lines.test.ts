@@ -29,11 +29,16 @@ test('moved: only the points asked for, and not those of the lines it began with
   expect([...lines.moved(flat, [0], [1, 2, 3]).positions]).toEqual([1, 2, 3, 0, 0, 4]);
 });
 
-test('without: a line that would keep fewer than three points goes as a whole', () => {
-  const fewer = lines.without(both, new Set([0, 4]));
-  expect([...fewer.starts]).toEqual([0, 3]);
-  expect(lines.pointAt(fewer, 1)).toEqual([2, 2, 1]);
-  expect(lines.lineCount(lines.without(both, new Set([0, 1, 3, 4])))).toBe(0);
+test('without: a line that would keep fewer than three points goes as a whole; with the first all go', () => {
+  const none = new Set<number>();
+  const fewer = lines.without(both, new Set([0, 4]), none);
+  expect(fewer).toBeNull();
+  const shorter = lines.without(both, new Set([4]), none);
+  expect(shorter && [...shorter.starts]).toEqual([0, 3, 6]);
+  expect(shorter && lines.pointAt(shorter, 4)).toEqual([2, 2, 1]);
+  expect(lines.without(both, new Set([3, 4]), none)?.starts).toEqual(new Uint32Array([0, 3]));
+  expect(lines.without(both, none, new Set([1]))?.starts).toEqual(new Uint32Array([0, 3]));
+  expect(lines.without(both, none, new Set([0]))).toBeNull();
 });
 
 test('boxOfLines: the least box; of nothing none', () => {
@@ -53,7 +58,7 @@ describe('readLines', () => {
     ['plain arrays', { positions: [...both.positions], starts: [...both.starts] }],
     ['no lines', { positions: new Float64Array(), starts: new Uint32Array([0]) }],
     ['a first line that does not begin with the first point', { ...both, starts: new Uint32Array([1, 3, 7]) }],
-    ['a line of two points', { ...both, starts: new Uint32Array([0, 5, 7]) }],
+    ['a line of no points', { ...both, starts: new Uint32Array([0, 0, 7]) }],
     ['fewer coordinates than points', { ...both, positions: both.positions.slice(1) }],
     ['the other dimension', flat],
     ['a coordinate that is no number', { ...both, positions: both.positions.map((x) => (x === 4 ? NaN : x)) }],

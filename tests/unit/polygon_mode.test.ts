@@ -4,7 +4,7 @@ import { beforeAll, describe, expect, test } from 'vitest';
 import { Content } from '../../web/src/app/content.ts';
 import { kExamples } from '../../web/src/modes/polygon/examples.ts';
 import { trianglesOfStrips } from '../../web/src/modes/polygon/fill.ts';
-import { flatten, hostOf, polygonKind, withHole, withoutPlaces } from '../../web/src/modes/polygon/polygons.ts';
+import { flatten, hostOf, polygonKind, withHole } from '../../web/src/modes/polygon/polygons.ts';
 import { polygonsOf, readPolygons } from '../../web/src/modes/polygon/read.ts';
 import { failureOf } from '../../web/src/modes/polygon/wording.ts';
 import { writeGeoJSON } from '../../web/src/modes/polygon/write.ts';
@@ -40,7 +40,7 @@ describe('moving', () => {
 
 describe('deleting', () => {
   const left = (...places: Place[]) => {
-    const shape = withoutPlaces(kShape, places);
+    const shape = polygonKind.remove(kShape, places);
     return shape && ringsOf(shape);
   };
   test('a hole; the outer ring, and with it the polygon', () => {
@@ -52,12 +52,12 @@ describe('deleting', () => {
   });
   test('a vertex of a triangle: the ring; of an outer one, the polygon', () => {
     const triangles = linesOf(2, [[[0, 0], [9, 0], [0, 9]], [[1, 1], [2, 1], [1, 2]]]);
-    expect(withoutPlaces(triangles, [place(1, 4)])).toEqual(linesOf(2, [[[0, 0], [9, 0], [0, 9]]]));
-    expect(withoutPlaces(triangles, [place(0, 1)])).toBeNull();
+    expect(polygonKind.remove(triangles, [place(1, 4)])).toEqual(linesOf(2, [[[0, 0], [9, 0], [0, 9]]]));
+    expect(polygonKind.remove(triangles, [place(0, 1)])).toBeNull();
   });
   test('keeps rings with too few vertices that nothing is taken from', () => {
     const shape = linesOf(2, [square(0, 0, 10), [[1, 1], [2, 2]]]);
-    expect(withoutPlaces(shape, [place(0, 0)])).toEqual(linesOf(2, [square(0, 0, 10).slice(1), [[1, 1], [2, 2]]]));
+    expect(polygonKind.remove(shape, [place(0, 0)])).toEqual(linesOf(2, [square(0, 0, 10).slice(1), [[1, 1], [2, 2]]]));
   });
 });
 

@@ -1,6 +1,6 @@
 // Kinds of objects that are closed lines with their points as handles: curves, polygons with holes.
 import { Group, type Object3D } from 'three';
-import { boxOfLines, lineCount, lineOf, moved, nextPoint, pointAt, pointCount, readLines, type Lines } from '../shapes/lines.ts';
+import { boxOfLines, lineCount, lineOf, moved, nextPoint, pointAt, pointCount, readLines, without, type Lines } from '../shapes/lines.ts';
 import type { Item, Place } from '../state/document.ts';
 import { Dots } from './dots.ts';
 import { distanceOf, distanceToSegment, type Eye, type Projected, type Spot } from './eye.ts';
@@ -23,31 +23,34 @@ interface LineKindOptions {
   readonly name: string;
   readonly dim: 2 | 3;
   readonly style: LineStyle;
-  /** The points that a place stands for when it is moved. */
-  readonly pointsAt: (lines: Lines, place: Place) => Iterable<number>;
-  readonly remove: (lines: Lines, places: readonly Place[]) => Lines | null;
 }
 
 /** A line's reach, as a share of a handle's. */
 const kLineReach = 0.6;
 
-export function lineKind({ name, dim, style, pointsAt, remove }: LineKindOptions): DrawnKind<Lines> {
+/** The first line carries the others, as the outer ring of a polygon does: as a whole it is moved and removed with them. */
+export function lineKind({ name, dim, style }: LineKindOptions): DrawnKind<Lines> {
   return {
     name,
     boxOf: boxOfLines,
     partStarts: ({ starts }) => starts,
     handleAt: pointAt,
-    move: (lines, places, by) => moved(lines, new Set(places.flatMap((place) => [...pointsAt(lines, place)])), by),
-    remove,
+    move: (lines, places, by) => moved(lines, new Set(places.flatMap((place) => pointsAt(lines, place))), by),
+    remove: (lines, places) => {
+      const whole = places.flatMap(({ part, handle }) => (handle === null ? part : []));
+      return without(lines, new Set(places.flatMap(({ handle }) => handle ?? [])), new Set(whole));
+    },
     read: (saved) => readLines(dim, saved),
     pick: pickLines,
     makeLayer: () => new LinesLayer(style),
   };
 }
 
-/** The points of a line. */
-export function pointsOfLine({ starts }: Lines, line: number): number[] {
-  return Array.from({ length: starts[line + 1] - starts[line] }, (_, i) => starts[line] + i);
+/** The points that move with a place. */
+function pointsAt(lines: Lines, { part, handle }: Place): number[] {
+  if (handle !== null) return [handle];
+  const [from, to] = part === 0 ? [0, pointCount(lines)] : [lines.starts[part], lines.starts[part + 1]];
+  return Array.from({ length: to - from }, (_, i) => from + i);
 }
 
 export function pickLines(lines: Lines, eye: Eye, at: Spot, reach: number): Hit | null {
@@ -130,7 +133,9 @@ class LinesLayer implements Layer {
         const lines = linesIn(item);
         for (let line = 0; line < lineCount(lines); line++) {
           const isChosen = marks.selection.some((place) => place.item === item.id && place.part === line);
-          for (const i of pointsOfLine(lines, line)) dots.put(pointAt(lines, i), isChosen ? curves.selected : curves.line, dot);
+          for (let i = lines.starts[line]; i < lines.starts[line + 1]; i++) {
+            dots.put(pointAt(lines, i), isChosen ? curves.selected : curves.line, dot);
+          }
         }
       }
     }

@@ -44,7 +44,13 @@ export class Stage {
       canvas.dataset.tool = tool.value;
     });
     effect(() => {
-      if (framing.value) this.frameAll(framing.value.direction, framing.value.atOnce);
+      const wish = framing.value;
+      if (wish === null) return;
+      // With the next picture: what stands beside the scene may only just be coming.
+      this.view.animate(() => {
+        this.frameAll(wish.direction, wish.atOnce);
+        return false;
+      });
     });
   }
 

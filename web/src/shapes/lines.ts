@@ -47,18 +47,31 @@ export function moved(lines: Lines, points: Iterable<number>, by: Point): Lines 
   return { ...lines, positions };
 }
 
-/** The lines without some points; a line that would keep fewer than three goes as a whole. */
-export function without(lines: Lines, points: ReadonlySet<number>): Lines {
+/**
+ * The lines without some of their points and without some lines as wholes. A line that would keep fewer than three
+ * points goes as well, unless nothing is taken from it. Null where the first line goes: all others depend on it.
+ */
+export function without(lines: Lines, points: ReadonlySet<number>, whole: ReadonlySet<number>): Lines | null {
   const { dim, positions, starts } = lines;
-  const kept: number[][][] = [];
+  const kept = new Float64Array(positions.length);
+  const keptStarts = [0];
+  let count = 0;
   for (let line = 0; line < lineCount(lines); line++) {
-    const list: number[][] = [];
+    const first = count;
     for (let i = starts[line]; i < starts[line + 1]; i++) {
-      if (!points.has(i)) list.push([...positions.subarray(dim * i, dim * (i + 1))]);
+      if (points.has(i)) continue;
+      for (let axis = 0; axis < dim; axis++) kept[dim * count + axis] = positions[dim * i + axis];
+      count++;
     }
-    if (list.length >= 3) kept.push(list);
+    const isTooShort = count - first < 3 && count - first < starts[line + 1] - starts[line];
+    if (!whole.has(line) && !isTooShort) {
+      keptStarts.push(count);
+      continue;
+    }
+    if (line === 0) return null;
+    count = first;
   }
-  return linesOf(dim, kept);
+  return { dim, positions: kept.slice(0, dim * count), starts: Uint32Array.from(keptStarts) };
 }
 
 export function boxOfLines({ dim, positions }: Lines): Box {
@@ -75,12 +88,12 @@ export function boxOfLines({ dim, positions }: Lines): Box {
   return { low: [lowX, lowY, lowZ], high: [highX, highY, highZ] };
 }
 
-/** What has been saved as lines, if it still is such: each of at least three points, all of them finite. */
+/** What has been saved as lines, if it still is such: none of them empty, all coordinates finite. */
 export function readLines(dim: 2 | 3, saved: unknown): Lines | null {
   if (typeof saved !== 'object' || saved === null) return null;
   const { positions, starts } = saved as Partial<Lines>;
   if (!(positions instanceof Float64Array) || !(starts instanceof Uint32Array)) return null;
   if (starts.length < 2 || starts[0] !== 0 || positions.length !== dim * starts[starts.length - 1]) return null;
-  if (starts.some((start, i) => i > 0 && start < starts[i - 1] + 3)) return null;
+  if (starts.some((start, i) => i > 0 && start <= starts[i - 1])) return null;
   return positions.every(Number.isFinite) ? { dim, positions, starts } : null;
 }

@@ -1,8 +1,8 @@
 // Polygons with holes in the plane, as objects of the document: line 0 is the outer ring, all others are holes.
-import { lineKind, pointsOfLine } from '../../scene/line_kind.ts';
+import { lineKind } from '../../scene/line_kind.ts';
 import { lineCount, pointCount, type Lines } from '../../shapes/lines.ts';
 import type { Box, Point } from '../../shapes/vec.ts';
-import { boxOfItem, type Group, type Item, type Place } from '../../state/document.ts';
+import { boxOfItem, type Group, type Item } from '../../state/document.ts';
 import { groupOf } from '../../state/store.ts';
 import type { PolygonOptions } from 'soapfilm';
 
@@ -20,44 +20,7 @@ export const polygonKind = lineKind({
   name: kPolygon,
   dim: 2,
   style: { width: 2, chosenWidth: 3, dot: 6, chosenDot: 12, hoverDot: 9, hasRim: false, mostDots: 4000 },
-  // With its outer ring a polygon is moved as a whole.
-  pointsAt: (lines, { part, handle }) => {
-    if (handle !== null) return [handle];
-    return part === 0 ? Array.from({ length: pointCount(lines) }, (_, i) => i) : pointsOfLine(lines, part);
-  },
-  remove: withoutPlaces,
 });
-
-/**
- * The polygon without some vertices and rings: a ring that would keep fewer than three vertices goes, and with its
- * outer ring the polygon. A ring that nothing is taken from stays as it is.
- */
-export function withoutPlaces(lines: Lines, places: readonly Place[]): Lines | null {
-  const { dim, positions, starts } = lines;
-  const taken = new Uint8Array(pointCount(lines));
-  const rings = new Set<number>();
-  for (const { part, handle } of places) {
-    if (handle === null) rings.add(part);
-    else taken[handle] = 1;
-  }
-  const keptPositions = new Float64Array(positions.length);
-  const keptStarts = [0];
-  let count = 0;
-  for (let ring = 0; ring < lineCount(lines); ring++) {
-    const first = count;
-    for (let i = starts[ring]; i < starts[ring + 1]; i++) {
-      if (taken[i] === 1) continue;
-      for (let axis = 0; axis < dim; axis++) keptPositions[dim * count + axis] = positions[dim * i + axis];
-      count++;
-    }
-    const left = count - first;
-    if (rings.has(ring) || (left < 3 && left < starts[ring + 1] - starts[ring])) {
-      if (ring === 0) return null;
-      count = first;
-    } else keptStarts.push(count);
-  }
-  return { dim, positions: keptPositions.slice(0, dim * count), starts: Uint32Array.from(keptStarts) };
-}
 
 /** The polygon with one more hole. */
 export function withHole({ dim, positions, starts }: Lines, hole: readonly Point[]): Lines {

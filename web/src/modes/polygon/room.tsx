@@ -33,6 +33,7 @@ export const openRoom = (stage: Stage): Room => ({
     rows: [
       { section: 'Tools', keys: 'D', what: 'A ring is a polygon; inside another it is a hole' },
       { section: 'View', keys: 'Right drag, two fingers', what: 'Move, with either tool' },
+      { section: 'View', keys: 'Arrows, + −', what: 'Move and zoom, with the drawing in focus' },
     ],
   },
   summary,
