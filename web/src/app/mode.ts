@@ -7,7 +7,7 @@ import type { Stage } from '../scene/stage.ts';
 import type { PenTool } from '../scene/tools.ts';
 import type { DrawnKind } from '../scene/kind.ts';
 import type { Item } from '../state/document.ts';
-import type { Failure, Work } from '../state/work.ts';
+import type { Failure } from '../state/work.ts';
 import type { Action } from './actions.ts';
 import type { Content } from './content.ts';
 
@@ -68,7 +68,6 @@ export interface Room {
   /** The objects in the content of a file of one of the mode's kinds. @throws SoapfilmError `bad-file` */
   readonly read: (kind: string, content: Content) => ReadFile | Promise<ReadFile>;
   readonly pen?: PenTool;
-  readonly work: Work;
   /** What is wrong with objects, marked at them and in words. */
   readonly failures: ReadonlySignal<readonly Failure[]>;
   readonly actions: readonly Action[];

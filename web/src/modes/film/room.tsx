@@ -63,7 +63,6 @@ export function openRoom(stage: Stage): Room {
     pressed: () => {
       if (isGrowing.peek()) scene?.skipGrowth();
     },
-    work: spanning,
     failures: computed(() => (spanning.state.value.phase === 'failed' ? [spanning.state.value] : [])),
     actions: [
       {

@@ -9,7 +9,7 @@ import { Panel, Step, summary } from './panel.tsx';
 import { penTool } from './pen.ts';
 import { kSettings, polygonKind } from './polygons.ts';
 import { readPolygons } from './read.ts';
-import { failures, work } from './triangulating.ts';
+import { failures } from './triangulating.ts';
 
 export const openRoom = (stage: Stage): Room => ({
   dimension: 2,
@@ -24,7 +24,6 @@ export const openRoom = (stage: Stage): Room => ({
   },
   read: readPolygons,
   pen: penTool,
-  work,
   failures,
   actions: kActions,
   escape: endFlooding,
