@@ -47,7 +47,7 @@ const kPage: Readonly<Partial<Record<string, readonly string[]>>> = (() => {
   const state = ['shapes'];
   const scene = ['state', ...state];
   const app = ['scene', ...scene];
-  return { shapes: [], state, scene, app, mode: ['app', ...app, ''], modes: ['app', 'mode'], '': ['app', 'modes', ...app] };
+  return { shapes: [], state, scene, app, mode: ['app', ...app], modes: ['app', 'mode'], '': ['app', 'modes', ...app] };
 })();
 
 /** Names by which code outside wasm/ may know the library. */
@@ -169,8 +169,7 @@ function judgePage(file: string, target: string): string[] {
   if (from.mode !== undefined && to.mode !== undefined && from.mode !== to.mode) {
     return [`is of the mode ${from.mode} and imports ${target}, of the mode ${to.mode}`];
   }
-  // What the page shows to its tests is told from above.
-  if (from.layer === 'mode' && to.layer === '' && target !== 'web/src/inspection.ts') return [`imports ${target}, against the arrows`];
+  if (from.layer === 'mode' && to.layer === '') return [`imports ${target}, against the arrows`];
   const allowed = kPage[from.layer];
   if (!allowed) return [`web/src/${from.layer} has no place among the layers`];
   return from.layer === to.layer || allowed.includes(to.layer) ? [] : [`${from.layer} imports ${target}, against the arrows`];

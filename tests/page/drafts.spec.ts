@@ -1,5 +1,5 @@
 // Drafts: what was drawn is there again after a reload, and no tab overwrites another's.
-import '../../web/src/inspection.ts';
+import '../../web/src/modes/film/inspection.ts';
 import '../../web/src/modes/polygon/inspection.ts';
 import { expect, hasCurves, openPage, spanned, stateOf, test } from './support.ts';
 

@@ -239,3 +239,43 @@ test('a complaint: goes with the next stroke, with a change, with what it was ab
   await page.keyboard.press('1');
   await expect(page.getByText('seen edge-on')).toBeHidden();
 });
+
+test('undo and redo by the keys of a Mac; a drag back to where it began costs no step', async ({ quietPage: page }) => {
+  await openPage(page);
+  await page.keyboard.press('a');
+  await hasCurves(page, 3);
+  await page.keyboard.press('Meta+z');
+  await hasCurves(page, 2);
+  await page.keyboard.press('Meta+Shift+z');
+  await hasCurves(page, 3);
+  const from = await whereIs(page, 0, 20);
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x + 30, from.y, { steps: 3 });
+  await page.mouse.move(from.x, from.y, { steps: 3 });
+  await page.mouse.move(from.x, from.y + 30, { steps: 3 });
+  await page.mouse.up();
+  await hasCurves(page, 3);
+  await page.keyboard.press('Control+z');
+  await hasCurves(page, 3);
+  await page.keyboard.press('Control+z');
+  await hasCurves(page, 2);
+});
+
+test('a key held down: one step of the history', async ({ quietPage: page }) => {
+  await openPage(page);
+  const { curves } = await stateOf(page);
+  await page.keyboard.press(']');
+  await page.keyboard.press('.');
+  await page.locator('canvas').focus();
+  // A key that goes down again without having come up repeats.
+  for (let i = 0; i < 30; i++) await page.keyboard.down('ArrowRight');
+  await page.keyboard.up('ArrowRight');
+  await page.keyboard.press('ArrowRight');
+  expect((await stateOf(page)).curves).not.toEqual(curves);
+  await page.keyboard.press('Control+z');
+  await page.keyboard.press('Control+z');
+  const state = await stateOf(page);
+  expect(state.curves).toEqual(curves);
+  expect(state.canUndo).toBe(false);
+});

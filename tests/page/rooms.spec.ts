@@ -1,7 +1,7 @@
 // The rooms of the page: going from one to another, one history for all, what happens without a network.
 import { createRequire } from 'node:module';
 import { feature } from 'topojson-client';
-import '../../web/src/inspection.ts';
+import '../../web/src/modes/film/inspection.ts';
 import '../../web/src/modes/polygon/inspection.ts';
 import { expect, hasCurves, openPage, spanned, stateOf, test } from './support.ts';
 
@@ -85,6 +85,51 @@ test('without a network: a mode that is not there yet says so, the page stays, a
   await page.waitForFunction(() => window.__polygons?.triangulated);
   expect(await modeOf(page)).toBe('polygon');
   expect(thrown).toEqual([]);
+});
+
+test('an address whose mode cannot be fetched: the first mode in its place, and words', async ({ page }) => {
+  await page.route(/room-.*\.js/, async (route) => {
+    const body = await (await route.fetch()).text();
+    // The room of polygons, whatever its file is called.
+    if (body.includes('A ring drawn inside another is a hole')) await route.abort();
+    else await route.fulfill({ body, contentType: 'text/javascript' });
+  });
+  await page.goto('?aa=0&dpr=1#polygon');
+  await page.waitForFunction(() => window.__soapfilm);
+  await expect(page.getByText('Polygon could not be opened.')).toBeVisible();
+  expect(await modeOf(page)).toBe('film');
+  expect(new URL(page.url()).hash).toBe('');
+  await page.unroute(/room-.*\.js/);
+  await page.getByRole('button', { name: 'Try again' }).click();
+  await page.waitForFunction(() => window.__polygons?.triangulated);
+  expect(await modeOf(page)).toBe('polygon');
+});
+
+test('going to another mode: ends what the pointer has begun, and closes what is open', async ({ quietPage: page }) => {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await openPage(page);
+  await toPolygons(page);
+  await page.getByRole('button', { name: 'Interleaved combs' }).click();
+  await page.getByRole('button', { name: 'Film', exact: true }).click();
+  await page.keyboard.press('d');
+  await page.mouse.move(200, 300);
+  await page.mouse.down();
+  for (const [x, y] of [[400, 300], [400, 500], [200, 500]]) await page.mouse.move(x, y, { steps: 3 });
+  await page.keyboard.press('Control+z');
+  await expect.poll(() => modeOf(page)).toBe('polygon');
+  await page.mouse.up();
+  expect(await page.evaluate(() => window.__polygons?.document.polygons[0].length)).toBe(4);
+  await page.keyboard.press('v');
+  await page.goBack();
+  await expect.poll(() => modeOf(page)).toBe('film');
+  expect((await stateOf(page)).curves).toHaveLength(2);
+  await page.keyboard.press('g');
+  await expect(page.getByRole('dialog')).toBeVisible();
+  await page.goBack();
+  await expect.poll(() => modeOf(page)).toBe('polygon');
+  await expect(page.getByRole('dialog')).toBeHidden();
+  await page.keyboard.press('d');
+  expect((await stateOf(page)).tool).toBe('draw');
 });
 
 test('countries at 1 : 50 million: drawn, no task longer than a few of those that reading the file takes', async ({ quietPage: page }) => {

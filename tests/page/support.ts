@@ -1,6 +1,6 @@
 // What the page's tests share: opening the page, drawing strokes, reading its state.
 import { expect, test as base, type Page } from '@playwright/test';
-import type { Inspection } from '../../web/src/inspection.ts';
+import type { Inspection } from '../../web/src/modes/film/inspection.ts';
 
 /** A page whose console must stay free of errors. */
 export const test = base.extend<{ quietPage: Page }>({

@@ -59,12 +59,13 @@ describe('apply', () => {
   });
 });
 
-test('hasPlace: parts and handles that are there', () => {
-  expect(state.hasPlace(group, place(a, 1))).toBe(true);
-  expect(state.hasPlace(group, place(a, 2))).toBe(false);
-  expect(state.hasPlace(group, place(a, 1, 3))).toBe(true);
-  expect(state.hasPlace(group, place(a, 1, 2))).toBe(false);
-  expect(state.hasPlace(group, { item: -1, part: 0, handle: null })).toBe(false);
+test('isNumberedAlike: whether the same numbers stand for the same parts and handles', () => {
+  const alike = (command: Parameters<typeof apply>[0]) => state.isNumberedAlike(a.id, group, apply(command));
+  expect(alike({ type: 'move', places: [place(a, 0, 1)], by: [1, 0, 0] })).toBe(true);
+  expect(alike({ type: 'set', settings: { size: 2 } })).toBe(true);
+  expect(alike({ type: 'delete', places: [place(a, 0, 1)] })).toBe(false);
+  expect(alike({ type: 'clear' })).toBe(false);
+  expect(state.isNumberedAlike(-1, group, group)).toBe(false);
 });
 
 test('handlesAt: one, or all of a part', () => {

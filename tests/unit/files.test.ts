@@ -95,7 +95,7 @@ describe('openFiles', () => {
     expect(notice.value?.action?.label).toBe('Open in Polygon');
     notice.value?.action?.run();
     await vi.waitFor(() => { expect(notice.value?.text).toBe('Opened “countries.geojson”: 1 polygon.'); });
-    expect([go.mock.calls, shown()?.mode, shown()?.name]).toEqual([[['polygon']], 'polygon', 'countries']);
+    expect([go.mock.calls, shown()?.mode, shown()?.name]).toEqual([[['polygon'], ['polygon']], 'polygon', 'countries']);
     store.mode.value = 'film';
     expect(await open(file('a.json', kGeo), file('b.json', kGeo))).toBe('“a.json” and “b.json” are each a GeoJSON file: the mode Polygon opens them.');
   });

@@ -14,7 +14,7 @@ const newGroup = (mode = 'test'): Group => ({ id: newId(), mode, name: 'Test', s
 
 function setUp(mode = 'test') {
   const changes: [mode: string, isStep: boolean][] = [];
-  const history = createHistory((group, isStep) => changes.push([group.mode, isStep]));
+  const history = createHistory((_, group, isStep) => changes.push([group.mode, isStep]));
   const group = newGroup(mode);
   history.put(group);
   const first: Place = { item: group.items[0].id, part: 0, handle: 0 };
@@ -27,6 +27,29 @@ function setUp(mode = 'test') {
 }
 
 describe('a gesture', () => {
+  test('that comes back to where it began and goes on: still one step, and the step before it stays', () => {
+    const { history, drag, x, can } = setUp();
+    drag(1);
+    [1, 0, 2].forEach((by) => { drag(by, 'drag'); });
+    expect(x()).toBe(3);
+    history.endGesture();
+    history.undo();
+    expect([x(), ...can()]).toEqual([1, true, true]);
+    history.undo();
+    expect([x(), ...can()]).toEqual([0, false, true]);
+  });
+
+  test('that is cancelled where it began: the step before it stays', () => {
+    const { history, drag, x, can } = setUp();
+    drag(1);
+    [1, 0].forEach((by) => { drag(by, 'drag'); });
+    history.cancelGesture();
+    expect([x(), ...can()]).toEqual([1, true, false]);
+    drag(0, 'drag');
+    history.cancelGesture();
+    expect([x(), ...can()]).toEqual([1, true, false]);
+  });
+
   test('one step, and the next gesture of that name another', () => {
     const { history, drag, x, can } = setUp();
     [1, 2, 3].forEach((by) => { drag(by, 'drag'); });
@@ -142,6 +165,19 @@ describe('the store', () => {
     expect([store.selection.value, store.hover.value]).toEqual([[kept], null]);
   });
 
+  test('places of an object whose vertices have other numbers now: not chosen any more', () => {
+    const [a, b, other] = [place(0, 0, 1), place(0, 0, 2), place(1, 0, null)];
+    store.choose(a, b, other);
+    remove(a, b);
+    expect(store.selection.value).toEqual([other]);
+    store.choose(place(0, 0, 0));
+    store.undo();
+    expect(store.selection.value).toEqual([]);
+    store.choose(a);
+    store.dispatch({ type: 'move', group: group.id, places: [a], by: [1, 0, 0] });
+    expect(store.selection.value).toEqual([a]);
+  });
+
   test('what another mode changes: leaves the choice alone', () => {
     store.choose(place(0, 0, 1));
     const other = store.ensureGroup('other', {});
@@ -151,11 +187,11 @@ describe('the store', () => {
 
   test('undo and redo: tell the mode that they changed', () => {
     const shown: string[] = [];
-    store.shownByStep.value = (mode) => shown.push(mode);
+    store.onStep((mode) => shown.push(mode));
     remove(place(1, 0, null));
     store.undo();
     store.redo();
-    store.shownByStep.value = null;
+    store.onStep(() => undefined);
     expect(shown).toEqual(['test', 'test']);
   });
 

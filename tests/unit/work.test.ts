@@ -6,8 +6,8 @@ import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
 const createWorker = vi.fn<() => Promise<object>>();
 vi.mock('soapfilm/worker', () => ({ createWorker: () => createWorker() }));
 
-const { busy, createWork, endAllWork, plainFailure } = await import('../../web/src/state/work.ts');
-const { dispatch, endGesture, ensureGroup } = await import('../../web/src/state/store.ts');
+const { busy, createWork, endShownWork, plainFailure } = await import('../../web/src/state/work.ts');
+const { dispatch, endGesture, ensureGroup, mode } = await import('../../web/src/state/store.ts');
 
 interface Input {
   readonly name: string;
@@ -22,6 +22,7 @@ interface Call {
   fail(error: unknown): void;
 }
 
+mode.value = 'test';
 const group = ensureGroup('test', { step: 0 }).id;
 let step = 0;
 /** A gesture that is under way, or goes on. */
@@ -33,6 +34,7 @@ function setUp(options: { auto?: boolean; alwaysLive?: boolean } = {}) {
   const calls: Call[] = [];
   const shown: (string | null)[] = [];
   const work = createWork<Input, string, string>({
+    mode: 'test',
     verb: 'Testing',
     part: 'loops',
     input,
@@ -67,7 +69,7 @@ beforeEach(() => {
 });
 afterEach(() => {
   endGesture();
-  endAllWork();
+  endShownWork();
   vi.useRealTimers();
 });
 
@@ -117,7 +119,7 @@ test('ended: what was shown stays, and a change begins anew', async () => {
   const { input, calls, shown, work } = setUp();
   input.value = { name: 'a' };
   await pass(60);
-  endAllWork();
+  endShownWork();
   await pass(0);
   expect([work.state.value.phase, shown]).toEqual(['cancelled', []]);
   await pass(1000);
@@ -127,12 +129,46 @@ test('ended: what was shown stays, and a change begins anew', async () => {
   expect(calls).toHaveLength(2);
 });
 
+test('work of a mode that is not shown: is not ended from elsewhere, and goes on', async () => {
+  const { input, calls, shown } = setUp();
+  input.value = { name: 'a' };
+  await pass(60);
+  mode.value = 'other';
+  expect([busy.value, endShownWork(), calls[0].signal.aborted]).toEqual([null, false, false]);
+  calls[0].finish('A');
+  await pass(0);
+  expect(shown).toEqual(['A']);
+  mode.value = 'test';
+});
+
+test('ended while the threads are on their way: at once', async () => {
+  vi.resetModules();
+  const fresh = await import('../../web/src/state/work.ts');
+  const { mode: freshMode } = await import('../../web/src/state/store.ts');
+  freshMode.value = 'test';
+  createWorker.mockReturnValueOnce(new Promise(() => undefined));
+  const work = fresh.createWork<Input, string>({
+    mode: 'test',
+    verb: 'Testing',
+    part: 'loops',
+    input: signal<Input | null>({ name: 'a' }),
+    compute: () => Promise.resolve('A'),
+    show: () => undefined,
+    explain: fresh.plainFailure,
+  });
+  await pass(60);
+  expect(work.state.value.phase).toBe('running');
+  fresh.endShownWork();
+  await pass(0);
+  expect(work.state.value.phase).toBe('cancelled');
+});
+
 test('ended, but it had something: that is its result', async () => {
   const { input, calls, shown, work } = setUp();
   input.value = { name: 'a' };
   await pass(60);
   calls[0].finish('best so far');
-  endAllWork();
+  endShownWork();
   await pass(0);
   expect([work.state.value.phase, shown]).toEqual(['done', ['best so far']]);
 });
@@ -154,6 +190,7 @@ test('no threads: said, and the next try asks for them anew', async () => {
   const input = signal<Input | null>({ name: 'a' });
   const shown: (string | null)[] = [];
   const work = fresh.createWork<Input, string>({
+    mode: 'test',
     verb: 'Testing',
     part: 'polygons',
     input,

@@ -27,23 +27,32 @@ current.subscribe((now) => {
 const root = document.getElementById('app');
 if (root === null) throw new Error('The page has no #app.');
 
-try {
-  const stage = new Stage(scene, canvas, {
-    antialias: query.get('aa') !== '0',
-    ...(ratio > 0 && { pixelRatio: ratio }),
-  });
+/** Null without WebGL 2. */
+function makeStage(): Stage | null {
+  try {
+    return new Stage(scene, canvas, {
+      antialias: query.get('aa') !== '0',
+      ...(ratio > 0 && { pixelRatio: ratio }),
+    });
+  } catch (error) {
+    console.warn(error);
+    return null;
+  }
+}
+
+const stage = makeStage();
+if (stage === null) {
+  const message = document.createElement('p');
+  message.className = 'fatal';
+  message.textContent = 'soapfilm could not start. It needs a browser with WebGL 2.';
+  root.append(message);
+} else {
   const room = () => current.peek()?.room;
   const tools = new Tools(stage, () => room()?.pen ?? null, () => room()?.pressed?.());
   const actions = computed(() => actionsOf(stage, tools, current.value?.room));
   render(<App modes={kModes} stage={stage} scene={scene} actions={() => actions.value} />, root);
   attachKeyboard(canvas, () => actions.peek());
   await restoreDraft();
-  await startRooms(kModes, stage);
+  await startRooms({ modes: kModes, stage, leave: () => void tools.cancel() });
   keepDrafts();
-} catch (error) {
-  root.innerHTML = '';
-  const message = document.createElement('p');
-  message.className = 'fatal';
-  message.textContent = `soapfilm could not start. It needs a browser with WebGL 2. (${String(error)})`;
-  root.append(message);
 }

@@ -1,8 +1,11 @@
 // Actions: one record each, from which buttons, menus, keys and the help sheet are made.
-import type { IconName } from './icons.tsx';
+import type { AnyIcon } from './icons.tsx';
 
-/** Where an action has a button: in the bar at the top, beside the tools, in the bar of the view, in the menu. */
-export type Bar = 'document' | 'tools' | 'edit' | 'view' | 'export';
+/**
+ * Where an action has a button: in the bar at the top (`document`, `open`, `edit`, `help`), among the tools, below them
+ * with what takes away (`bin`), in the bar of the view, in the menu of exports.
+ */
+export type Bar = 'document' | 'open' | 'edit' | 'help' | 'tools' | 'bin' | 'view' | 'export';
 
 export interface Action {
   readonly id: string;
@@ -11,7 +14,7 @@ export interface Action {
   /** In the help sheet, where more is to be said than the label does. */
   readonly help?: string;
   /** The heading of the help sheet that it stands under; none: it is not in the sheet. */
-  readonly section?: 'Tools' | 'View' | 'Edit' | 'File';
+  readonly section?: string;
   /**
    * `KeyboardEvent.key` in lower case, with `ctrl+` (or ⌘) and `shift+` before it; `canvas+` where it counts only
    * while the scene has the focus. The first is shown on buttons.
@@ -20,7 +23,7 @@ export interface Action {
   /** Keys as the help sheet shows them, where they differ from `keys`. */
   readonly keysShown?: string;
   readonly bar?: Bar;
-  readonly icon?: IconName | (() => IconName);
+  readonly icon?: AnyIcon | (() => AnyIcon);
   /** Beside the icon where there is room, or in a menu. */
   readonly text?: string;
   /** A second word in a menu. */
@@ -52,13 +55,23 @@ export function keysOf({ keys, keysShown }: Action): string | undefined {
 
 const kNames: Partial<Record<string, string>> = { delete: 'Del', escape: 'Esc', ' ': 'Space' };
 
-/** Runs the first action of the lists that has the key and applies; says whether there was one. */
-export function runByKey(actions: readonly Action[], event: KeyboardEvent, isCanvas: boolean): boolean {
+/** The names of a pressed key, as in `Action.keys`. */
+function namesOf(event: KeyboardEvent, isCanvas: boolean): string[] {
   const key = event.key.toLowerCase();
-  const wanted = `${event.ctrlKey || event.metaKey ? 'ctrl+' : ''}${event.shiftKey && key.length > 1 ? 'shift+' : ''}${key}`;
-  const names = event.ctrlKey && event.shiftKey ? [`ctrl+shift+${key}`] : [wanted, ...(isCanvas ? [`canvas+${wanted}`] : [])];
-  const found = actions.find(({ keys }) => keys?.some((each) => names.includes(each)));
-  if (!found) return false;
-  if (found.applies?.() ?? true) found.run(event);
-  return true;
+  // A sign that takes Alt or AltGr to be typed, as brackets do on many keyboards, is that sign.
+  const isSign = event.key.length === 1 && !/[\p{L}\p{N}\s]/u.test(event.key);
+  if (event.altKey) return isSign ? [key] : [];
+  const isControl = event.ctrlKey || event.metaKey;
+  if (isControl) return [`ctrl+${event.shiftKey ? 'shift+' : ''}${key}`];
+  // Of signs and letters Shift is a part.
+  const names = event.shiftKey && key.length > 1 ? [`shift+${key}`, key] : [key];
+  return isCanvas ? [...names, ...names.map((name) => `canvas+${name}`)] : names;
+}
+
+/** Runs the first action that has the key and applies; says whether any has it. */
+export function runByKey(actions: readonly Action[], event: KeyboardEvent, isCanvas: boolean): boolean {
+  const names = namesOf(event, isCanvas);
+  const found = actions.filter(({ keys }) => keys?.some((each) => names.includes(each)));
+  found.find(({ applies }) => applies?.() ?? true)?.run(event);
+  return found.length > 0;
 }

@@ -3,9 +3,9 @@ import { useId, useState } from 'preact/hooks';
 import type { Stage } from '../scene/stage.ts';
 import { group, tool } from '../state/store.ts';
 import type { Action } from './actions.ts';
-import { ActionButton, ExportMenu, HistoryButtons, IconButton, inBar, ToolBar, ViewBar } from './bars.tsx';
+import { ActionButton, ExportMenu, HistoryButtons, inBar, ToolBar, ViewBar } from './bars.tsx';
 import { Busy } from './busy.tsx';
-import { Dialogs, openDialog } from './dialogs.tsx';
+import { Dialogs } from './dialogs.tsx';
 import { DropZone } from './drop_zone.tsx';
 import { FaultLabels } from './fault_labels.tsx';
 import { openFiles } from './files.ts';
@@ -14,7 +14,7 @@ import { Icon, Logo } from './icons.tsx';
 import type { Mode, Room } from './mode.ts';
 import { ModeSwitch } from './mode_switch.tsx';
 import { OpenButton } from './open_button.tsx';
-import { allModes, current, goTo } from './rooms.ts';
+import { current, firstMode, goTo } from './rooms.ts';
 import { Toast } from './toast.tsx';
 
 interface AppProps {
@@ -28,6 +28,7 @@ interface AppProps {
 export function App({ modes, stage, scene, actions }: AppProps) {
   const now = current.value;
   const all = actions();
+  const open = (files: readonly File[]) => openIn(modes, files);
   return (
     <>
       <header class="top-bar">
@@ -41,13 +42,17 @@ export function App({ modes, stage, scene, actions }: AppProps) {
             {inBar(all, 'document').map((action) => (
               <ActionButton key={action.id} action={action} />
             ))}
-            <OpenButton of={now.room.fileNoun} accept={acceptOf(now.mode)} open={open} />
+            {inBar(all, 'open').map((action) => (
+              <OpenButton key={action.id} action={action} of={now.room.fileNoun ?? now.room.nouns[1]} accept={acceptOf(now.mode)} open={open} />
+            ))}
             <ExportMenu actions={all} />
             <HistoryButtons actions={all} />
           </nav>
         )}
         <span class="document-name">{group.value?.name}</span>
-        <IconButton icon="help" label="Keys and gestures" keys="?" onClick={() => (openDialog.value = 'help')} />
+        {inBar(all, 'help').map((action) => (
+          <ActionButton key={action.id} action={action} />
+        ))}
       </header>
       <main>
         <div class="viewport">
@@ -72,7 +77,7 @@ function Floating({ room, stage, actions }: { room: Room; stage: Stage; actions:
   const { Overlay } = room;
   return (
     <>
-      {group.value?.items.length === 0 && <Hint room={room} actions={actions} />}
+      {group.value?.items.length === 0 && room.hint && <Hint hint={room.hint} actions={actions} />}
       <ToolBar actions={actions} />
       {Overlay && <Overlay />}
       {room.dimension === 3 && <Gizmo view={stage.view} viewpoint={() => stage.current.peek()?.viewpoint} />}
@@ -114,7 +119,7 @@ function Panel({ room: { Panel: Body, panelLabel, summary } }: { room: Room }) {
 }
 
 /** How to begin, over a scene with nothing in it. */
-function Hint({ room: { hint }, actions }: { room: Room; actions: readonly Action[] }) {
+function Hint({ hint, actions }: { hint: NonNullable<Room['hint']>; actions: readonly Action[] }) {
   return (
     <div class="hint">
       {tool.value === 'draw' ? (
@@ -138,9 +143,9 @@ function Hint({ room: { hint }, actions }: { room: Room; actions: readonly Actio
   );
 }
 
-async function open(files: readonly File[]): Promise<void> {
-  const now = current.peek();
-  if (now !== null && files.length > 0) await openFiles(files, { ...now, modes: allModes(), go: goTo });
+async function openIn(modes: readonly Mode[], files: readonly File[]): Promise<void> {
+  // Files that come before the page is there wait for it.
+  if (files.length > 0) await openFiles(files, { ...(current.peek() ?? (await firstMode())), modes, go: goTo });
 }
 
 const acceptOf = ({ files }: Mode): string => [...new Set(files.flatMap(({ extensions }) => extensions))].join(',');

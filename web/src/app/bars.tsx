@@ -1,13 +1,11 @@
 // Buttons made from actions, and the bars and the menu that they stand in.
 import { useEffect, useRef } from 'preact/hooks';
 import { signal } from '@preact/signals';
-import type { Pen } from '../state/store.ts';
 import { isReady, keysOf, labelOf, type Action, type Bar } from './actions.ts';
-import { linear, NumberField } from './controls.tsx';
-import { Icon, type IconName } from './icons.tsx';
+import { Icon, type AnyIcon } from './icons.tsx';
 
 interface ButtonProps {
-  readonly icon: IconName;
+  readonly icon: AnyIcon;
   readonly label: string;
   /** Shown beside the icon where there is room. */
   readonly text?: string | undefined;
@@ -38,7 +36,7 @@ export function ActionButton({ action }: { action: Action }) {
   const { icon = 'check', text, isOn, run } = action;
   return (
     <IconButton
-      icon={typeof icon === 'string' ? icon : icon()}
+      icon={typeof icon === 'function' ? icon() : icon}
       label={labelOf(action)}
       text={text}
       keys={keysOf(action)}
@@ -68,15 +66,13 @@ export function HistoryButtons({ actions }: BarProps) {
 
 /** Tools that can be taken in hand, what a mode adds, and below a rule what takes away. */
 export function ToolBar({ actions }: BarProps) {
-  const all = inBar(actions, 'tools').filter(({ isOn, applies }) => !isOn || (applies?.() ?? true));
-  const isLast = ({ id }: Action) => id === 'delete' || id === 'clear';
   return (
     <div class="tool-bar floating" role="toolbar" aria-label="Tools" aria-orientation="vertical">
-      {all.filter((action) => !isLast(action)).map((action) => (
+      {inBar(actions, 'tools').map((action) => (
         <ActionButton key={action.id} action={action} />
       ))}
       <span class="rule" aria-hidden="true" />
-      {all.filter(isLast).map((action) => (
+      {inBar(actions, 'bin').map((action) => (
         <ActionButton key={action.id} action={action} />
       ))}
     </div>
@@ -147,38 +143,5 @@ export function ExportMenu({ actions }: BarProps) {
         </div>
       )}
     </div>
-  );
-}
-
-interface PenFieldsProps {
-  readonly pen: Pen;
-  /** What is drawn. */
-  readonly of: string;
-  readonly onChange: (change: Partial<Pen>) => void;
-}
-
-/** How a stroke becomes a closed line. */
-export function PenFields({ pen, of, onChange }: PenFieldsProps) {
-  return (
-    <>
-      <NumberField
-        label="Vertices"
-        title={`Of a drawn ${of}`}
-        value={pen.count}
-        min={3}
-        max={500}
-        whole
-        scale={linear(6, 100)}
-        onChange={(count) => { onChange({ count }); }}
-      />
-      <NumberField
-        label="Smoothing"
-        value={pen.smoothing}
-        min={0}
-        max={1}
-        scale={linear(0, 1)}
-        onChange={(smoothing) => { onChange({ smoothing }); }}
-      />
-    </>
   );
 }

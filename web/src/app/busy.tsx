@@ -1,6 +1,6 @@
 // The progress over the scene, for work that takes long enough to be noticed, and the one button that ends it.
 import { useEffect, useState } from 'preact/hooks';
-import { busy, endAllWork } from '../state/work.ts';
+import { busy, endShownWork } from '../state/work.ts';
 
 const kBusyAfterMs = 400;
 
@@ -23,7 +23,7 @@ export function Busy() {
     <div class="busy floating">
       <progress aria-label={`${work.verb}, over the scene`} max={1} value={state.fraction} />
       <span>{Math.floor(100 * state.fraction)} %</span>
-      <button type="button" class="button small" onClick={endAllWork}>
+      <button type="button" class="button small" onClick={() => { endShownWork(); }}>
         Cancel
       </button>
     </div>

@@ -1,6 +1,7 @@
 // The actions that all modes have.
+import { nudge } from '../scene/nudge.ts';
 import type { Stage } from '../scene/stage.ts';
-import { nudge, type Tools } from '../scene/tools.ts';
+import type { Tools } from '../scene/tools.ts';
 import type { PlaneKind } from '../shapes/plane.ts';
 import { dismissNotice, notice } from '../state/notice.ts';
 import {
@@ -18,55 +19,53 @@ import {
   tool,
   undo,
 } from '../state/store.ts';
-import { busy, endAllWork } from '../state/work.ts';
+import { endShownWork } from '../state/work.ts';
 import type { Action } from './actions.ts';
 import { chooseFile } from './open_button.tsx';
 import { openDialog } from './dialogs.tsx';
 import { fileStem, save } from './files.ts';
-import type { Room } from './mode.ts';
-import { current } from './rooms.ts';
+import type { HelpRow, Room } from './mode.ts';
 
 /** What a key press enlarges the view by. */
 const kCloser = 1.18;
+/** How much further an arrow moves with Shift. */
 const kFar = 10;
 
 const isEmpty = (): boolean => (group.value?.items.length ?? 0) === 0;
-const nouns = (): readonly [string, string] => current.value?.room.nouns ?? ['object', 'objects'];
-function hasPen(): boolean {
-  return current.value?.room.pen !== undefined;
-}
 
 /** All actions of the page while it is in a mode, in the order of their buttons. */
 export function actionsOf(stage: Stage, tools: Tools, room: Room | undefined): readonly Action[] {
   const inSpace = room?.dimension === 3 ? planeActions(stage) : [];
-  return [...kToolActions, ...(room?.actions ?? []), ...coreActions(stage, tools), ...inSpace, pictureAction(stage)];
+  return [...toolActions(room), ...(room?.actions ?? []), ...coreActions(stage, tools, room), ...inSpace, pictureAction(stage)];
 }
 
-const kToolActions: readonly Action[] = [
-  {
+function toolActions(room: Room | undefined): readonly Action[] {
+  const pen = room?.pen;
+  const select: Action = {
     id: 'select',
     label: 'Select',
-    help: 'Select: drag a vertex, or what is chosen; drag elsewhere to turn or move the view',
+    help: `Select: drag a vertex, or what is chosen; drag elsewhere to ${room?.dimension === 3 ? 'turn' : 'move'} the view`,
     section: 'Tools',
     keys: ['v'],
     bar: 'tools',
     icon: 'select',
-    isOn: () => tool.value === 'select' || !hasPen(),
+    isOn: () => tool.value === 'select' || !pen,
     run: () => (tool.value = 'select'),
-  },
-  {
+  };
+  if (!pen) return [select];
+  const draw: Action = {
     id: 'draw',
     label: 'Draw',
-    help: 'Draw: one stroke all the way round is one closed line',
+    help: `Draw: ${pen.help}`,
     section: 'Tools',
     keys: ['d'],
     bar: 'tools',
     icon: 'draw',
-    applies: hasPen,
     isOn: () => tool.value === 'draw',
     run: () => (tool.value = 'draw'),
-  },
-];
+  };
+  return [select, draw];
+}
 
 const kPlanes: readonly PlaneKind[] = ['xy', 'yz', 'zx', 'view'];
 
@@ -102,7 +101,9 @@ const pictureAction = (stage: Stage): Action => ({
   run: () => { save(`${fileStem(group.peek()?.name ?? '')}.png`, 'image/png', () => stage.view.picture()); },
 });
 
-function coreActions(stage: Stage, tools: Tools): readonly Action[] {
+function coreActions(stage: Stage, tools: Tools, room: Room | undefined): readonly Action[] {
+  const [one, many] = room?.nouns ?? ['object', 'objects'];
+  const part = room?.partNoun ?? one;
   const viewpoint = () => stage.current.peek()?.viewpoint;
   const arrow = (key: string, right: number, up: number): Action => ({
     id: key,
@@ -110,7 +111,7 @@ function coreActions(stage: Stage, tools: Tools): readonly Action[] {
     keys: [`canvas+${key}`, `canvas+shift+${key}`],
     run: (event) => {
       const far = event?.shiftKey ? kFar : 1;
-      if (!nudge(stage, far * right, far * up)) viewpoint()?.step(right, up);
+      if (!nudge(stage, far * right, far * up, event?.repeat ?? false)) viewpoint()?.step(right, up);
     },
   });
   return [
@@ -123,7 +124,7 @@ function coreActions(stage: Stage, tools: Tools): readonly Action[] {
       icon: 'fit',
       run: () => { stage.frameAll(); },
     },
-    { id: 'closer', label: 'Zoom in', keys: ['canvas+shift++', 'canvas++', 'canvas+='], run: () => viewpoint()?.zoom(kCloser) },
+    { id: 'closer', label: 'Zoom in', keys: ['canvas++', 'canvas+='], run: () => viewpoint()?.zoom(kCloser) },
     { id: 'further', label: 'Zoom out', keys: ['canvas+-'], run: () => viewpoint()?.zoom(1 / kCloser) },
     arrow('arrowleft', -1, 0),
     arrow('arrowright', 1, 0),
@@ -157,11 +158,11 @@ function coreActions(stage: Stage, tools: Tools): readonly Action[] {
     { id: 'handle after', label: 'Next vertex', keys: ['.'], run: () => { stepHandle(1); } },
     {
       id: 'delete',
-      label: () => (typeof chosen.value?.handle === 'number' ? 'Delete the chosen vertex' : `Delete the chosen ${nouns()[0]}`),
+      label: () => (typeof chosen.value?.handle === 'number' ? 'Delete the chosen vertex' : `Delete the chosen ${part}`),
       help: 'Delete the chosen vertex, or all that is chosen',
       section: 'Edit',
       keys: ['delete', 'backspace'],
-      bar: 'tools',
+      bar: 'bin',
       icon: 'trash',
       applies: () => selection.value.length > 0,
       run: () => {
@@ -171,8 +172,8 @@ function coreActions(stage: Stage, tools: Tools): readonly Action[] {
     },
     {
       id: 'clear',
-      label: () => `Clear all ${nouns()[1]}`,
-      bar: 'tools',
+      label: `Clear all ${many}`,
+      bar: 'bin',
       icon: 'clear',
       applies: () => !isEmpty(),
       run: () => {
@@ -187,9 +188,8 @@ function coreActions(stage: Stage, tools: Tools): readonly Action[] {
       section: 'Edit',
       keys: ['escape'],
       run: () => {
-        if (tools.cancel() || (current.peek()?.room.escape?.() ?? false)) return;
-        if (busy.peek() !== null) endAllWork();
-        else if (notice.peek() !== null) dismissNotice();
+        if (tools.cancel() || (room?.escape?.() ?? false) || endShownWork()) return;
+        if (notice.peek() !== null) dismissNotice();
         else if (selection.peek().length > 0) choose();
         else tool.value = 'select';
       },
@@ -200,22 +200,29 @@ function coreActions(stage: Stage, tools: Tools): readonly Action[] {
       help: 'Open files; or drop them on the page',
       section: 'File',
       keys: ['ctrl+o'],
+      bar: 'open',
+      icon: 'open',
+      text: 'Open',
       run: chooseFile,
     },
     {
       id: 'help',
       label: 'Keys and gestures',
       keys: ['?'],
+      bar: 'help',
+      icon: 'help',
       run: () => (openDialog.value = 'help'),
     },
   ];
 }
 
 /** Rows of the help sheet for what is no single action. */
-export const kCoreHelp = [
-  { section: 'View', keys: 'Wheel, pinch', what: 'Zoom' },
-  { section: 'Edit', keys: '[ ]', what: 'Previous and next line' },
-  { section: 'Edit', keys: ', .', what: 'Previous and next vertex' },
-  { section: 'Edit', keys: 'Arrows', what: 'Move what is chosen in the screen; Shift: further' },
-  { section: 'Edit', keys: 'Shift click, Shift drag', what: 'Choose more; all in a box' },
-] as const;
+export function coreHelp({ nouns, partNoun }: Room): readonly HelpRow[] {
+  return [
+    { section: 'View', keys: 'Wheel, pinch', what: 'Zoom' },
+    { section: 'Edit', keys: '[ ]', what: `Previous and next ${partNoun ?? nouns[0]}` },
+    { section: 'Edit', keys: ', .', what: 'Previous and next vertex' },
+    { section: 'Edit', keys: 'Arrows', what: 'Move what is chosen in the screen; Shift: further' },
+    { section: 'Edit', keys: 'Shift click, Shift drag', what: 'Choose more; all in a box' },
+  ];
+}

@@ -40,7 +40,11 @@ export async function openFiles(files: readonly File[], into: Destination): Prom
   const outcomes: Outcome[] = [];
   for (const file of files) outcomes.push(await read(file, into));
   const opened = outcomes.filter((each) => each.is === 'read');
-  if (opened.length > 0) show(opened, into);
+  if (opened.length > 0) {
+    // The page may have gone elsewhere meanwhile.
+    await into.go(into.mode.id);
+    show(opened, into);
+  }
   tell(outcomes, into);
 }
 

@@ -21,11 +21,13 @@ const kPaths = {
 } as const;
 
 export type IconName = keyof typeof kPaths;
+/** One of these, or one of a mode's own by its path. */
+export type AnyIcon = IconName | { readonly path: string };
 
-export function Icon({ name: icon }: { name: IconName }) {
+export function Icon({ name: icon }: { name: AnyIcon }) {
   return (
     <svg class="icon" viewBox="0 0 24 24" aria-hidden="true">
-      <path d={kPaths[icon]} />
+      <path d={typeof icon === 'string' ? kPaths[icon] : icon.path} />
     </svg>
   );
 }

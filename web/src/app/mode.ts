@@ -57,10 +57,14 @@ export interface Room {
   readonly kinds: readonly DrawnKind<any>[];
   /** What the objects are called: `curve`, `curves`. */
   readonly nouns: readonly [one: string, many: string];
-  /** What files hold for it: "loops". */
-  readonly fileNoun: string;
+  /** What parts of objects are called, which `[` and `]` go through; by default as objects are. */
+  readonly partNoun?: string;
+  /** What files hold for it, such as "loops"; by default its objects. */
+  readonly fileNoun?: string;
   /** The settings of a new group. */
   readonly settings: object;
+  /** Whether settings from a draft, which have the right types, are such that the mode can work with them. */
+  readonly areSettings?: (settings: object) => boolean;
   /** Puts something into an empty document to begin with, without a step of the history. */
   readonly begin: () => void;
   /** Called once, when the scene of the mode is there: adds to it what the mode draws besides objects. */
@@ -87,5 +91,5 @@ export interface Room {
   /** Dialogs of its own, opened by `openDialog`. */
   readonly dialogs?: readonly { readonly id: string; readonly title: string; readonly Body: ComponentType }[];
   /** How to begin, over a scene with nothing in it: with the pen in hand, and on the button that puts it there. */
-  readonly hint: { readonly drawing: string; readonly draw: string };
+  readonly hint?: { readonly drawing: string; readonly draw: string };
 }

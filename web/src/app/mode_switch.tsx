@@ -1,5 +1,4 @@
 // The buttons of the modes. One that is on its way says so.
-import { dismissNotice } from '../state/notice.ts';
 import { mode } from '../state/store.ts';
 import type { Mode } from './mode.ts';
 import { awaited, chooseMode } from './rooms.ts';
@@ -15,8 +14,6 @@ export function ModeSwitch({ modes }: { modes: readonly Mode[] }) {
           aria-pressed={mode.value === id}
           aria-busy={awaited.value === id}
           onClick={() => {
-            // What it says is about the mode that is left.
-            dismissNotice();
             chooseMode(id);
           }}
         >

@@ -1,5 +1,6 @@
-// The file input in the page; `chooseFile` opens the browser's dialog for it.
-import { IconButton } from './bars.tsx';
+// The button that opens files, with the file input that it stands for; `chooseFile` opens the browser's dialog for it.
+import type { Action } from './actions.ts';
+import { ActionButton } from './bars.tsx';
 
 let fileInput: HTMLInputElement | null = null;
 export function chooseFile(): void {
@@ -7,6 +8,7 @@ export function chooseFile(): void {
 }
 
 interface OpenButtonProps {
+  readonly action: Action;
   /** What the files hold. */
   readonly of: string;
   /** Their extensions, with dots and commas. */
@@ -14,10 +16,10 @@ interface OpenButtonProps {
   readonly open: (files: readonly File[]) => Promise<void>;
 }
 
-export function OpenButton({ of, accept, open }: OpenButtonProps) {
+export function OpenButton({ action, of, accept, open }: OpenButtonProps) {
   return (
     <>
-      <IconButton icon="open" label="Open a file" text="Open" keys="Ctrl O" onClick={chooseFile} />
+      <ActionButton action={action} />
       <input
         ref={(element) => {
           if (element) fileInput = element;

@@ -3,9 +3,9 @@ import { useState } from 'preact/hooks';
 import type { Signal } from '@preact/signals';
 import type { PlaneKind } from '../shapes/plane.ts';
 import { chosen, drawingPlane, tool, type DrawingPlane, type Pen } from '../state/store.ts';
-import { PenFields } from './bars.tsx';
 import { linear, NumberField, Segments, type Choice } from './controls.tsx';
 import { Icon } from './icons.tsx';
+import { PenFields } from './pen_fields.tsx';
 
 const kPlanes: readonly Choice<PlaneKind>[] = [
   { value: 'xy', label: 'XY' },

@@ -2,7 +2,7 @@
 import type { ComponentChildren } from 'preact';
 import { useLayoutEffect, useRef } from 'preact/hooks';
 import { keysOf, labelOf, type Action } from './actions.ts';
-import { kCoreHelp } from './core_actions.ts';
+import { coreHelp } from './core_actions.ts';
 import { openDialog } from './dialogs.tsx';
 import { Icon } from './icons.tsx';
 import { current } from './rooms.ts';
@@ -66,25 +66,27 @@ function Dialog({ id, title, children }: DialogProps) {
   );
 }
 
+/** In this order, and then those of the mode. */
 const kSections = ['Tools', 'View', 'Edit', 'File'];
 
 function Help({ actions }: { actions: readonly Action[] }) {
-  const help = current.value?.room.help;
+  const room = current.value?.room;
   const ofActions = actions.flatMap((action) => {
     const keys = keysOf(action);
     return action.section && keys ? [{ section: action.section, keys, what: action.help ?? labelOf(action) }] : [];
   });
-  const rows = [...ofActions, ...kCoreHelp, ...(help?.rows ?? [])];
+  const rows = [...ofActions, ...(room ? coreHelp(room) : []), ...(room?.help.rows ?? [])];
+  const sections = [...new Set([...kSections, ...rows.map(({ section }) => section)])];
   return (
     <>
-      <p class="muted">{help?.about} On a Mac, Ctrl is ⌘.</p>
+      <p class="muted">{room?.help.about} On a Mac, Ctrl is ⌘.</p>
       <div class="help-columns">
-        {kSections.map((title) => (
+        {sections.map((title) => (
           <section key={title}>
             <h3>{title}</h3>
             <dl>
               {rows.filter(({ section }) => section === title).map(({ keys, what }) => (
-                <div key={keys}>
+                <div key={`${keys} ${what}`}>
                   <dt>
                     <kbd>{keys}</kbd>
                   </dt>

@@ -24,8 +24,8 @@ export interface Eye {
 
 export const distanceOf = (a: Spot, b: Spot): number => Math.hypot(a.x - b.x, a.y - b.y);
 
-export function distanceToSegment({ x, y }: Spot, a: Spot, b: Spot): number {
+/** How far along the segment from `a` to `b` its point nearest to a place is: 0 to 1. */
+export function shareAlong({ x, y }: Spot, a: Spot, b: Spot): number {
   const [dx, dy] = [b.x - a.x, b.y - a.y];
-  const t = Math.min(1, Math.max(0, ((x - a.x) * dx + (y - a.y) * dy) / (dx * dx + dy * dy || 1)));
-  return Math.hypot(a.x + t * dx - x, a.y + t * dy - y);
+  return Math.min(1, Math.max(0, ((x - a.x) * dx + (y - a.y) * dy) / (dx * dx + dy * dy || 1)));
 }

@@ -1,5 +1,6 @@
 // What the scene knows of a kind of object, besides what the document does: how it is picked and drawn.
 import type { Object3D } from 'three';
+import type { Point } from '../shapes/vec.ts';
 import type { Item, Kind, Place } from '../state/document.ts';
 import type { Fault } from '../state/work.ts';
 import type { Eye, Spot } from './eye.ts';
@@ -12,6 +13,8 @@ export interface Hit {
   readonly handle: number | null;
   /** In CSS pixels, at most the reach. */
   readonly distance: number;
+  /** The point of it nearest to the pointer. */
+  readonly point: Point;
 }
 
 /** What is marked among objects. */

@@ -1,9 +1,10 @@
 // Kinds of objects that are closed lines with their points as handles: curves, polygons with holes.
 import { Group, type Object3D } from 'three';
 import { boxOfLines, lineCount, lineOf, moved, nextPoint, pointAt, pointCount, readLines, without, type Lines } from '../shapes/lines.ts';
-import type { Item, Place } from '../state/document.ts';
+import { add, scale, subtract } from '../shapes/vec.ts';
+import type { Id, Item, Place } from '../state/document.ts';
 import { Dots } from './dots.ts';
-import { distanceOf, distanceToSegment, type Eye, type Projected, type Spot } from './eye.ts';
+import { distanceOf, shareAlong, type Eye, type Projected, type Spot } from './eye.ts';
 import { FatLines, segmentsOf } from './fat_line.ts';
 import type { Drawn, DrawnKind, Hit, Layer, Marks } from './kind.ts';
 
@@ -53,21 +54,28 @@ function pointsAt(lines: Lines, { part, handle }: Place): number[] {
   return Array.from({ length: to - from }, (_, i) => from + i);
 }
 
-export function pickLines(lines: Lines, eye: Eye, at: Spot, reach: number): Hit | null {
+function pickLines(lines: Lines, eye: Eye, at: Spot, reach: number): Hit | null {
   const projected: Projected[] = [];
   let best: Hit | null = null;
   for (let i = 0; i < pointCount(lines); i++) {
-    const p = eye.project(pointAt(lines, i));
+    const point = pointAt(lines, i);
+    const p = eye.project(point);
     projected.push(p);
     const distance = p.visible ? distanceOf(p, at) : Infinity;
-    if (distance < (best?.distance ?? reach)) best = { part: lineOf(lines, i), handle: i, distance };
+    if (distance < (best?.distance ?? reach)) best = { part: lineOf(lines, i), handle: i, distance, point };
   }
   if (best !== null) return best;
   for (let line = 0; line < lineCount(lines); line++) {
     for (let i = lines.starts[line]; i < lines.starts[line + 1]; i++) {
-      const [a, b] = [projected[i], projected[nextPoint(lines, line, i)]];
-      const distance = a.visible && b.visible ? distanceToSegment(at, a, b) / kLineReach : Infinity;
-      if (distance < (best?.distance ?? reach)) best = { part: line, handle: null, distance };
+      const next = nextPoint(lines, line, i);
+      const [a, b] = [projected[i], projected[next]];
+      if (!a.visible || !b.visible) continue;
+      const share = shareAlong(at, a, b);
+      const on = { x: a.x + share * (b.x - a.x), y: a.y + share * (b.y - a.y) };
+      const distance = distanceOf(on, at) / kLineReach;
+      if (distance >= (best?.distance ?? reach)) continue;
+      const [from, to] = [pointAt(lines, i), pointAt(lines, next)];
+      best = { part: line, handle: null, distance, point: add(from, scale(subtract(to, from), share)) };
     }
   }
   return best;
@@ -97,59 +105,62 @@ class LinesLayer implements Layer {
       this.all.put(segmentsOf(items.map(linesIn), drawn.placement), { color: curves.line, width: this.style.width });
       this.shown = { items, drawn };
     }
-    this.markLines(items, marks, drawn);
-    this.markPoints(items, marks, drawn);
+    const byId = new Map(items.map((item) => [item.id, item]));
+    this.markLines(byId, marks, drawn);
+    this.markPoints(items, byId, marks, drawn);
   }
 
-  private markLines(items: readonly Item[], { selection, hover, faults }: Marks, { placement, theme }: Drawn): void {
+  private markLines(byId: ItemsById, { selection, hover, faults }: Marks, { placement, theme }: Drawn): void {
     const { curves } = theme;
     const { width, chosenWidth } = this.style;
     this.marked.clear();
-    const find = ({ item: id }: Place) => items.find((item) => item.id === id);
-    const mark = (place: Place, color: string, lineWidth: number, order: number): void => {
-      const item = find(place);
-      if (item) this.marked.put(segmentsOf([lineIn(linesIn(item), place.part)], placement), { color, width: lineWidth, order });
-    };
-    if (hover) mark(hover, curves.line, chosenWidth, 0);
-    for (const place of selection) mark(place, curves.selected, chosenWidth, 1);
-    for (const { place, isEdge } of faults) {
-      const item = find(place);
-      if (!item) continue;
-      if (place.handle === null) mark(place, curves.fault, chosenWidth, 1);
-      else if (isEdge) {
-        const edge = edgeIn(linesIn(item), place.part, place.handle);
-        if (edge) this.marked.put(segmentsOf([edge], placement), { color: curves.fault, width: width + 3, isOnTop: true, order: 1 });
+    const mark = (places: readonly Place[], color: string, lineWidth: number, order: number): void => {
+      // Thousands of handles may be chosen on one line.
+      const lines = new Map<string, Lines>();
+      for (const { item: id, part } of places) {
+        const key = `${id} ${part}`;
+        const item = lines.has(key) ? undefined : byId.get(id);
+        if (item) lines.set(key, lineIn(linesIn(item), part));
       }
-    }
+      if (lines.size > 0) this.marked.put(segmentsOf([...lines.values()], placement), { color, width: lineWidth, order });
+    };
+    if (hover) mark([hover], curves.line, chosenWidth, 0);
+    mark(selection, curves.selected, chosenWidth, 1);
+    mark(faults.flatMap(({ place }) => (place.handle === null ? place : [])), curves.fault, chosenWidth, 1);
+    const edges = faults.flatMap(({ place: { item: id, part, handle }, isEdge }) => {
+      const item = byId.get(id);
+      return (isEdge && handle !== null && item && edgeIn(linesIn(item), part, handle)) || [];
+    });
+    if (edges.length > 0) this.marked.put(segmentsOf(edges, placement), { color: curves.fault, width: width + 3, isOnTop: true, order: 1 });
   }
 
-  private markPoints(items: readonly Item[], marks: Marks, { placement, pixelRatio, theme }: Drawn): void {
+  private markPoints(items: readonly Item[], byId: ItemsById, marks: Marks, { placement, pixelRatio, theme }: Drawn): void {
     const { curves } = theme;
     const { dot, chosenDot, hoverDot, mostDots } = this.style;
     const dots = this.dots.begin(placement);
     const count = items.reduce((sum, item) => sum + pointCount(linesIn(item)), 0);
     if (marks.vertices && count <= mostDots) {
+      const chosen = new Set(marks.selection.map(({ item, part }) => `${item} ${part}`));
       for (const item of items) {
         const lines = linesIn(item);
         for (let line = 0; line < lineCount(lines); line++) {
-          const isChosen = marks.selection.some((place) => place.item === item.id && place.part === line);
-          for (let i = lines.starts[line]; i < lines.starts[line + 1]; i++) {
-            dots.put(pointAt(lines, i), isChosen ? curves.selected : curves.line, dot);
-          }
+          const color = chosen.has(`${item.id} ${line}`) ? curves.selected : curves.line;
+          for (let i = lines.starts[line]; i < lines.starts[line + 1]; i++) dots.put(pointAt(lines, i), color, dot);
         }
       }
     }
-    const mark = (place: Place | null, color: string, diameter: number): void => {
-      if (place === null || place.handle === null) return;
-      const item = items.find(({ id }) => id === place.item);
-      if (item && place.handle < pointCount(linesIn(item))) dots.put(pointAt(linesIn(item), place.handle), color, diameter);
+    const mark = ({ item: id, handle }: Place, color: string, diameter: number): void => {
+      const item = handle === null ? undefined : byId.get(id);
+      if (item && handle !== null && handle < pointCount(linesIn(item))) dots.put(pointAt(linesIn(item), handle), color, diameter);
     };
-    mark(marks.hover, curves.selected, hoverDot);
+    if (marks.hover) mark(marks.hover, curves.selected, hoverDot);
     for (const place of marks.selection) mark(place, curves.selected, chosenDot);
     for (const { place, isEdge } of marks.faults) if (!isEdge) mark(place, curves.fault, chosenDot + 1);
     this.dots.show(pixelRatio, curves.rim);
   }
 }
+
+type ItemsById = ReadonlyMap<Id, Item>;
 
 function areSame(a: readonly Item[], b: readonly Item[]): boolean {
   return a.length === b.length && a.every((item, i) => item.shape === b[i].shape);

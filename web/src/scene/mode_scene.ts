@@ -1,7 +1,7 @@
 // What a mode shows in the scene: its objects by kind, where the world lies, and a viewpoint of its own.
 import { computed, effect, type ReadonlySignal } from '@preact/signals';
 import { Group as SceneGroup } from 'three';
-import { boundsOf } from '../shapes/vec.ts';
+import { boundsOf, type Point } from '../shapes/vec.ts';
 import { boxOfGroup, boxOfItem, type Group, type Item, type Place } from '../state/document.ts';
 import { hover, mode, selection, shown } from '../state/store.ts';
 import type { Failure } from '../state/work.ts';
@@ -21,8 +21,16 @@ export interface ModeSceneOptions {
   readonly group: ReadonlySignal<Group>;
   // eslint-disable-next-line @typescript-eslint/no-explicit-any -- each kind reads only shapes of its own
   readonly kinds: readonly DrawnKind<any>[];
+  /** Whether anything can be drawn in it. */
+  readonly hasPen: boolean;
   /** What is marked as faulty. */
   readonly failures: ReadonlySignal<readonly Failure[]>;
+}
+
+/** What lies under the pointer. */
+export interface Picked {
+  readonly place: Place;
+  readonly point: Point;
 }
 
 export class ModeScene {
@@ -57,22 +65,21 @@ export class ModeScene {
     });
   }
 
-  /** What lies within reach of a place: a handle, else a part; of a chosen whole part also where its handles are. */
-  pick(at: Spot, reach: number): Place | null {
-    let best: { place: Place; distance: number } | null = null;
-    const items = this.options.group.peek().items;
-    for (const item of items) {
+  /** What lies within reach of a place: a handle, else a part, with the point of it that is nearest. */
+  pick(at: Spot, reach: number): Picked | null {
+    let best: Picked | null = null;
+    let least = Infinity;
+    for (const item of this.options.group.peek().items) {
       if (!this.isNear(item, at, reach)) continue;
       const kind = this.options.kinds.find(({ name }) => name === item.kind);
       const hit = kind?.pick(item.shape, this.viewpoint, at, reach);
       if (!hit) continue;
+      const { part, handle, point } = hit;
       // A handle anywhere goes before a line.
-      const distance = hit.handle === null ? hit.distance + reach : hit.distance;
-      if (best === null || distance < best.distance) {
-        best = { place: { item: item.id, part: hit.part, handle: hit.handle }, distance };
-      }
+      const distance = handle === null ? hit.distance + reach : hit.distance;
+      if (distance < least) [best, least] = [{ place: { item: item.id, part, handle }, point }, distance];
     }
-    return best?.place ?? null;
+    return best;
   }
 
   /** Whether the pointer may be near an object: a look at its box, since there may be thousands. */
@@ -103,7 +110,7 @@ export class ModeScene {
     };
     const drawn = {
       placement: this.placement.value,
-      pixelRatio: this.view.renderer.getPixelRatio(),
+      pixelRatio: this.view.pixelRatio.value,
       theme: this.theme.value,
     };
     for (const [kind, layer] of this.layers) {

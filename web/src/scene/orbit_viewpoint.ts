@@ -22,6 +22,8 @@ const kFlightMs = 420;
 const kPole = 1e-4;
 /** How far from the origin an eye is taken along into another placement, in units of the scene. */
 const kFarthest = 1e4;
+/** What an arrow key moves by what is chosen, in radii of what is in view. */
+const kKeyStep = 0.02;
 /** What an arrow key turns the view by. */
 const kTurn = Math.PI / 24;
 
@@ -86,6 +88,10 @@ export class OrbitViewpoint extends Viewpoint {
   lookFrom(direction: Point): void {
     const { distance } = this.eyeNow();
     this.fly(this.controls.target.clone(), { ...toSpherical(new Vector3(...direction)), distance });
+  }
+
+  keyStep(): number {
+    return kKeyStep * this.radius;
   }
 
   step(right: number, up: number): void {

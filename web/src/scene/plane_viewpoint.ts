@@ -7,8 +7,10 @@ import { kEmptyRadius, Viewpoint, type Screen } from './viewpoint.ts';
 
 /** What the bar of tools covers at the side, in CSS pixels. */
 const kToolBar = 72;
-/** What an arrow key moves the view by, in CSS pixels. */
+/** What an arrow key moves by the view, and what is chosen, in CSS pixels. */
 const kStep = 40;
+const kKeyStep = 4;
+const kWheelSpeed = 3;
 /** CSS pixels a unit of the world, in a view of nothing. */
 const kEmptyScale = 60;
 /** How far above the plane the eye is, in units of the scene: anything between the camera's near and far planes. */
@@ -20,6 +22,8 @@ export class PlaneViewpoint extends Viewpoint {
   /** Its `zoom` is CSS pixels a unit of the scene. */
   readonly camera = new OrthographicCamera(-1, 1, 1, -1, 0.1, 100);
   readonly controls: OrbitControls;
+  /** The lesser extent of the canvas that `zoom` is for, in CSS pixels. */
+  private fitted = 0;
 
   constructor(screen: Screen) {
     super(screen);
@@ -29,13 +33,16 @@ export class PlaneViewpoint extends Viewpoint {
     this.controls.enableRotate = false;
     this.controls.enableDamping = false;
     this.controls.zoomToCursor = true;
-    this.controls.zoomSpeed = 3;
     this.controls.minZoom = 1e-6;
     this.controls.maxZoom = kMostScale;
     this.controls.enabled = false;
     this.controls.addEventListener('change', () => {
       screen.moved();
     });
+    // Two fingers enlarge by how far they have moved apart, to the power of the speed; before the controls hear of it.
+    const setSpeed = (speed: number) => () => (this.controls.zoomSpeed = speed);
+    screen.canvas.addEventListener('pointerdown', setSpeed(1), { capture: true });
+    screen.canvas.addEventListener('wheel', setSpeed(kWheelSpeed), { capture: true, passive: true });
   }
 
   /** Moved with any button, whatever the tool. */
@@ -64,6 +71,10 @@ export class PlaneViewpoint extends Viewpoint {
     this.look(toScene(this.placement, center), extent > 0 ? unit / extent : kEmptyScale * unit);
   }
 
+  keyStep(): number {
+    return kKeyStep * this.pixelSize();
+  }
+
   step(right: number, up: number): void {
     const far = kStep / this.camera.zoom;
     const [x, y] = this.controls.target.toArray();
@@ -78,10 +89,11 @@ export class PlaneViewpoint extends Viewpoint {
   lookFrom(): void {}
 
   /** What was in view stays so, as when the panel opens below the canvas. */
-  resize(before: readonly [number, number]): void {
+  resize(): void {
     const [width, height] = this.screen.size;
-    const least = Math.min(...before);
-    if (least > 0) this.camera.zoom *= Math.min(width, height) / least;
+    const least = Math.min(width, height);
+    if (this.fitted > 0) this.camera.zoom *= least / this.fitted;
+    this.fitted = least;
     [this.camera.left, this.camera.right] = [-width / 2, width / 2];
     [this.camera.top, this.camera.bottom] = [height / 2, -height / 2];
     this.camera.updateProjectionMatrix();

@@ -3,10 +3,10 @@
 import { effect, signal } from '@preact/signals';
 import { coordinatePlane, viewPlane, type Frame } from '../shapes/plane.ts';
 import type { Point } from '../shapes/vec.ts';
-import { boxOfGroup, type Place } from '../state/document.ts';
-import { drawingPlane, framing, shown, tool, type DrawingPlane } from '../state/store.ts';
+import { boxOfGroup } from '../state/document.ts';
+import { drawingPlane, framing, shown, tool, type DrawingPlane, type Tool } from '../state/store.ts';
 import { PlaneGrid } from './grid.ts';
-import { kIdentity } from './placement.ts';
+import { kIdentity, type Placement } from './placement.ts';
 import { ModeScene, type ModeSceneOptions } from './mode_scene.ts';
 import { PenLayer } from './pen.ts';
 import { readTheme } from './theme.ts';
@@ -33,15 +33,21 @@ export class Stage {
     });
     this.view.onCamera(() => {
       const plane = drawingPlane.peek();
+      const scene = this.current.peek();
       // The plane that faces the viewer, and the grid's size, go with the eye.
-      this.placeGrid(plane, shown.peek().grid, tool.peek() === 'draw', this.current.peek());
+      this.placeGrid(plane, shown.peek().grid, this.isDrawing(tool.peek()), scene, scene?.placement.peek() ?? kIdentity);
     });
     effect(() => {
-      this.placeGrid(drawingPlane.value, shown.value.grid, tool.value === 'draw', this.current.value);
+      const scene = this.current.value;
+      // Read here, so that another placement places the grid anew.
+      const placement = scene?.placement.value ?? kIdentity;
+      this.placeGrid(drawingPlane.value, shown.value.grid, this.isDrawing(tool.value), scene, placement);
     });
     effect(() => {
-      this.current.value?.viewpoint.setButtons(tool.value === 'draw');
-      canvas.dataset.tool = tool.value;
+      const scene = this.current.value;
+      const isDrawing = this.isDrawing(tool.value);
+      scene?.viewpoint.setButtons(isDrawing);
+      canvas.dataset.tool = isDrawing ? 'draw' : 'select';
     });
     effect(() => {
       const wish = framing.value;
@@ -89,10 +95,6 @@ export class Stage {
     return { ...this.drawingPlane(), origin: through };
   }
 
-  pick(x: number, y: number, reach: number): Place | null {
-    return this.current.peek()?.pick({ x, y }, reach) ?? null;
-  }
-
   frameAll(direction?: Point, atOnce = false): void {
     const scene = this.current.peek();
     if (scene === null) return;
@@ -113,11 +115,16 @@ export class Stage {
     this.view.invalidate();
   }
 
-  private placeGrid({ plane }: DrawingPlane, isShown: boolean, isDrawing: boolean, scene: ModeScene | null): void {
+  /** Whether the tool draws, which it does only in modes with a pen. */
+  isDrawing(now: Tool): boolean {
+    return now === 'draw' && (this.current.peek()?.options.hasPen ?? false);
+  }
+
+  private placeGrid({ plane }: DrawingPlane, isShown: boolean, isDrawing: boolean, scene: ModeScene | null, placement: Placement): void {
     const isInSpace = scene !== null && scene.options.dimension === 3;
     this.grid.mesh.visible = isInSpace && (isShown || isDrawing);
     if (isInSpace) {
-      this.grid.place(plane, this.drawingPlane(), scene.viewpoint.radius, isDrawing, scene.placement.value);
+      this.grid.place(plane, this.drawingPlane(), scene.viewpoint.radius, isDrawing, placement);
     }
     this.view.invalidate();
   }

@@ -15,7 +15,6 @@ import { complain, settle } from '../state/notice.ts';
 import {
   cancelGesture,
   choose,
-  chosen,
   dispatch,
   drawingPlane,
   endGesture,
@@ -23,18 +22,21 @@ import {
   hover,
   isChosen,
   isSamePlace,
-  itemBy,
+  keyOf,
   selection,
   tool,
   type Pen,
 } from '../state/store.ts';
 import { distanceOf, type Spot } from './eye.ts';
+import type { Picked } from './mode_scene.ts';
 import type { Stage } from './stage.ts';
 
 /** What a mode does with the pen. */
 export interface PenTool {
   /** What a stroke becomes: "curve". */
   readonly noun: string;
+  /** In the help sheet: "one stroke all the way round is one closed curve". */
+  readonly help: string;
   readonly pen: () => Pen;
   /** Takes the closed line. */
   readonly add: (points: readonly Point[]) => void;
@@ -93,6 +95,10 @@ export class Tools {
       this.touches.delete(event.pointerId);
       if (this.isMine(event)) this.cancel();
     });
+    // The end of a press that no `pointerup` told of.
+    container.addEventListener('lostpointercapture', (event) => {
+      if (this.isMine(event)) this.up(event);
+    });
     container.addEventListener('pointerleave', () => (hover.value = null));
     // Seen from elsewhere, or another: the plane may be drawn in again.
     stage.view.onCamera(() => {
@@ -133,14 +139,20 @@ export class Tools {
     return ray ? meetPlane(frame, ray.from, ray.direction) : null;
   }
 
-  private pick(event: PointerEvent): Place | null {
-    const { x, y } = this.at(event);
-    return this.stage.pick(x, y, reachOf(event));
+  private pick(event: PointerEvent): Picked | null {
+    return this.stage.current.peek()?.pick(this.at(event), reachOf(event)) ?? null;
   }
 
   private down(event: PointerEvent): void {
     if (event.target !== this.stage.view.canvas || this.stage.current.peek() === null) return;
     this.onPress();
+    const { state } = this;
+    const isBusy = state.name !== 'idle' && state.name !== 'leaving' && state.press.pointerId !== event.pointerId;
+    // A palm beside the pen, a touch during a drag by the mouse.
+    if (isBusy && state.press.pointerType !== 'touch') {
+      event.stopPropagation();
+      return;
+    }
     if (event.pointerType === 'touch') this.touches.add(event.pointerId);
     if (this.touches.size > 1) {
       this.handOver();
@@ -156,18 +168,18 @@ export class Tools {
   }
 
   private isDrawing(): boolean {
-    return tool.peek() === 'draw' && this.pen() !== null;
+    return this.stage.isDrawing(tool.peek());
   }
 
   private point(event: PointerEvent): State | null {
-    const hit = this.pick(event);
-    if (hit === null) return event.shiftKey ? { name: 'boxing', press: event, from: this.at(event) } : null;
+    const picked = this.pick(event);
+    if (picked === null) return event.shiftKey ? { name: 'boxing', press: event, from: this.at(event) } : null;
+    const { place: hit, point } = picked;
     // A part that is chosen as a whole is dragged wherever it is taken, handles included.
     const whole: Place = { ...hit, handle: null };
     const taken = isChosen(whole) ? whole : hit;
     if (taken.handle === null && !isChosen(taken) && !event.shiftKey) return null;
-    const through = this.handleOf(hit);
-    const frame = this.stage.dragPlane(through);
+    const frame = this.stage.dragPlane(point);
     const grip = this.meet(frame, event);
     if (grip === null) {
       complain('The drawing plane is seen edge-on here. Turn the view, or drag in the view plane.', 'plane');
@@ -176,15 +188,6 @@ export class Tools {
     // Chosen at once, so that its settings are at hand; with Shift once the press has ended.
     if (!event.shiftKey && !isChosen(taken)) choose(taken);
     return { name: 'pointing', press: event, hit, frame, grip };
-  }
-
-  /** A point of a place, for the plane in which it is dragged. */
-  private handleOf(place: Place): Point {
-    const item = itemBy(place.item);
-    if (!item) return [0, 0, 0];
-    const kind = kindOf(item);
-    const handle = handlesAt(kind, item.shape, place).at(0);
-    return handle === undefined ? (this.stage.current.peek()?.viewpoint.target ?? [0, 0, 0]) : kind.handleAt(item.shape, handle);
   }
 
   private beginStroke(event: PointerEvent): State {
@@ -218,6 +221,11 @@ export class Tools {
     }
     if (!this.isMine(event)) return;
     event.stopPropagation();
+    // The button was let go where the page did not hear of it.
+    if (event.pointerType === 'mouse' && event.buttons === 0) {
+      this.up(event);
+      return;
+    }
     switch (state.name) {
       case 'drawing': {
         const parts = event.getCoalescedEvents();
@@ -246,7 +254,7 @@ export class Tools {
 
   private hover(event: PointerEvent): void {
     const isFree = event.buttons === 0 && event.pointerType !== 'touch' && !this.isDrawing();
-    const under = isFree ? this.pick(event) : null;
+    const under = (isFree && this.pick(event)?.place) || null;
     if (!isSamePlace(under, hover.peek())) hover.value = under;
     const { dataset } = this.stage.view.canvas;
     dataset.over = under === null ? '' : under.handle !== null || isChosen(under) ? 'vertex' : 'curve';
@@ -272,7 +280,7 @@ export class Tools {
         return;
       case 'leaving':
         // A click on nothing, or on a line that was not chosen.
-        if (distanceOf(this.at(event), this.at(state.press)) < kClickSlop && event.button === 0 && !this.isDrawing()) choose(this.pick(event));
+        if (distanceOf(this.at(event), this.at(state.press)) < kClickSlop && event.button === 0 && !this.isDrawing()) choose(this.pick(event)?.place ?? null);
         return;
       case 'pointing':
         this.click(state.hit, state.press.shiftKey);
@@ -324,8 +332,7 @@ export class Tools {
           .map((handle): Place => ({ item: item.id, part, handle })),
       ).flat();
     });
-    const kept = selection.peek().filter((place) => !found.some((each) => isSamePlace(each, place)));
-    choose(...kept, ...found);
+    choose(...new Map([...selection.peek(), ...found].map((place) => [keyOf(place), place])).values());
   }
 
   private closed({ stroke, pixel }: Extract<State, { name: 'drawing' }>): ClosedStroke {
@@ -351,20 +358,4 @@ export class Tools {
     }
     pen.add(outcome.points.map((p) => fromPlane(state.frame, p)));
   }
-}
-
-/** Moves what is chosen along the screen's axes, in hundredths of what is in view; says whether there was anything. */
-export function nudge(stage: Stage, right: number, up: number): boolean {
-  const viewpoint = stage.current.peek()?.viewpoint;
-  const at = chosen.peek();
-  const item = at && itemBy(at.item);
-  const id = group.peek()?.id;
-  if (!viewpoint || !item || id === undefined) return false;
-  const kind = kindOf(item);
-  const handle = handlesAt(kind, item.shape, at).at(0);
-  const frame = stage.dragPlane(handle === undefined ? viewpoint.target : kind.handleAt(item.shape, handle));
-  const step = 0.02 * viewpoint.radius;
-  const by = subtract(fromPlane(frame, [step * right, step * up]), frame.origin);
-  dispatch({ type: 'move', group: id, places: selection.peek(), by });
-  return true;
 }

@@ -1,4 +1,5 @@
 // The view: the one renderer, and the viewpoint that is in use. Draws on demand, and only then.
+import { signal } from '@preact/signals';
 import { Color, Scene, WebGLRenderer } from 'three';
 import type { Viewpoint, Animation, Screen } from './viewpoint.ts';
 
@@ -12,6 +13,7 @@ export class View implements Screen {
   readonly scene = new Scene();
   readonly renderer: WebGLRenderer;
   size: readonly [number, number] = [0, 0];
+  readonly pixelRatio = signal(1);
   private current: Viewpoint | null = null;
   private readonly animations = new Set<Animation>();
   private readonly cameraListeners = new Set<() => void>();
@@ -23,9 +25,10 @@ export class View implements Screen {
     private readonly options: ViewOptions,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: options.antialias, powerPreference: 'high-performance' });
-    new ResizeObserver(() => {
-      this.resize();
-    }).observe(container);
+    const resize = () => { this.resize(); };
+    new ResizeObserver(resize).observe(container);
+    // Another ratio of pixels may come without another size.
+    window.addEventListener('resize', resize);
     this.resize();
   }
 
@@ -36,7 +39,7 @@ export class View implements Screen {
     this.current = viewpoint;
     // The container may have been put into the page a moment ago.
     this.resize();
-    viewpoint.resize([0, 0]);
+    viewpoint.resize();
     viewpoint.attach(true);
     this.moved();
   }
@@ -88,12 +91,13 @@ export class View implements Screen {
   resize(): void {
     const { clientWidth, clientHeight } = this.container;
     if (clientWidth === 0 || clientHeight === 0) return;
-    if (clientWidth === this.size[0] && clientHeight === this.size[1]) return;
-    const before = this.size;
+    const ratio = this.options.pixelRatio ?? Math.min(2, window.devicePixelRatio);
+    if (clientWidth === this.size[0] && clientHeight === this.size[1] && ratio === this.pixelRatio.peek()) return;
     this.size = [clientWidth, clientHeight];
-    this.renderer.setPixelRatio(this.options.pixelRatio ?? Math.min(2, window.devicePixelRatio));
+    this.pixelRatio.value = ratio;
+    this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(clientWidth, clientHeight, false);
-    this.current?.resize(before);
+    this.current?.resize();
     for (const listener of this.cameraListeners) listener();
     // At once, since resizing clears the canvas.
     this.draw(performance.now());

@@ -36,6 +36,8 @@ export abstract class Viewpoint implements Eye {
   abstract frame(box: Box, direction?: Point, atOnce?: boolean): void;
   /** Places the world anew; what is in view stays so where it can. */
   abstract place(placement: Placement): void;
+  /** World units that an arrow key moves by what is chosen, at a point. */
+  abstract keyStep(at: Point): number;
   /** Turns or moves what is seen by steps of the arrow keys. */
   abstract step(right: number, up: number): void;
   /** Above 1: closer. */
@@ -44,7 +46,8 @@ export abstract class Viewpoint implements Eye {
   abstract lookFrom(direction: Point): void;
   /** While drawing, the left button and one finger belong to the pen. */
   abstract setButtons(whileDrawing: boolean): void;
-  abstract resize(before: readonly [number, number]): void;
+  /** The canvas has the screen's size now. */
+  abstract resize(): void;
   /** World units a CSS pixel, at a point. */
   abstract pixelSize(at: Point): number;
   /** Called before each frame. */

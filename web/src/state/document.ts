@@ -126,7 +126,11 @@ function withShapes(group: Group, of: ReadonlySet<Id>, next: (item: Item) => unk
 
 function placesByItem(places: readonly Place[]): Map<Id, Place[]> {
   const found = new Map<Id, Place[]>();
-  for (const place of places) found.set(place.item, [...(found.get(place.item) ?? []), place]);
+  for (const place of places) {
+    const list = found.get(place.item);
+    if (list) list.push(place);
+    else found.set(place.item, [place]);
+  }
   return found;
 }
 
@@ -139,12 +143,13 @@ export function isSame(a: unknown, b: unknown): boolean {
   return keys.every((key) => isSame(a[key as keyof typeof a], b[key as keyof typeof b]));
 }
 
-/** Whether the object still has such a place. */
-export function hasPlace({ items }: Group, { item: id, part, handle }: Place): boolean {
-  const item = items.find((each) => each.id === id);
-  if (item === undefined) return false;
-  const starts = kindOf(item).partStarts(item.shape);
-  return part + 1 < starts.length && (handle === null || (handle >= starts[part] && handle < starts[part + 1]));
+/** Whether parts and handles of an object have the same numbers in both groups. */
+export function isNumberedAlike(id: Id, before: Group, after: Group): boolean {
+  const [a, b] = [before, after].map(({ items }) => items.find((item) => item.id === id));
+  if (a === undefined || b === undefined) return false;
+  if (a.shape === b.shape) return true;
+  const kind = kindOf(a);
+  return isSame(kind.partStarts(a.shape), kind.partStarts(b.shape));
 }
 
 /** The handles that a place stands for. */

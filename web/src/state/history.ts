@@ -30,30 +30,39 @@ export interface History {
   readonly put: (group: Group) => void;
 }
 
+/** What a gesture has done so far: all its commands are applied to `before`. */
+interface Gesture {
+  readonly name: string;
+  readonly before: Group;
+  /** Whether the last step of the past is the gesture's; it has none where it changes nothing. */
+  readonly hasStep: boolean;
+}
+
 /** @param changed called within the batch in which a group changes; `isStep`: by undo or redo */
-export function createHistory(changed: (group: Group, isStep: boolean) => void): History {
+export function createHistory(changed: (before: Group, after: Group, isStep: boolean) => void): History {
   const past = signal<readonly Step[]>([]);
   const future = signal<readonly Step[]>([]);
   const current = signal<Document>({ groups: [] });
-  const gesture = signal<string | null>(null);
+  const gesture = signal<Gesture | null>(null);
 
   const groupBy = (id: number): Group => {
     const found = current.peek().groups.find((group) => group.id === id);
     if (found === undefined) throw new Error(`There is no group ${id}.`);
     return found;
   };
-  const replace = (next: Group): void => {
-    current.value = { groups: current.peek().groups.map((group) => (group.id === next.id ? next : group)) };
+  const replace = (next: Group, isStep: boolean): void => {
+    const present = groupBy(next.id);
+    current.value = { groups: current.peek().groups.map((group) => (group === present ? next : group)) };
+    changed(present, next, isStep);
   };
   const step = (from: typeof past, to: typeof past, read: keyof Step): void => {
     const taken = from.peek().at(-1);
+    gesture.value = null;
     if (taken === undefined) return;
     batch(() => {
-      gesture.value = null;
       from.value = from.peek().slice(0, -1);
       to.value = [...to.peek(), taken];
-      replace(taken[read]);
-      changed(taken[read], true);
+      replace(taken[read], true);
     });
   };
 
@@ -64,28 +73,31 @@ export function createHistory(changed: (group: Group, isStep: boolean) => void):
     isLive: computed(() => gesture.value !== null),
     dispatch(command, name) {
       const present = groupBy(command.group);
-      const last = past.peek().at(-1);
-      const goesOn = name !== undefined && name === gesture.peek() && last?.after === present;
-      const before = goesOn ? last.before : present;
+      const open = gesture.peek();
+      const same = open !== null && open.name === name && open.before.id === present.id ? open : null;
+      const before = same?.before ?? present;
       const after = apply(before, command);
       if (after === present) return;
       batch(() => {
-        const kept = goesOn ? past.peek().slice(0, -1) : past.peek().slice(1 - kHistoryLimit);
-        past.value = after === before ? kept : [...kept, { before, after }];
+        const kept = same?.hasStep ? past.peek().slice(0, -1) : past.peek();
+        const hasStep = after !== before;
+        past.value = hasStep ? [...kept.slice(1 - kHistoryLimit), { before, after }] : kept;
         future.value = [];
-        gesture.value = name ?? null;
-        replace(after);
-        changed(after, false);
+        gesture.value = name === undefined ? null : { name, before, hasStep };
+        replace(after, false);
       });
     },
     endGesture() {
       gesture.value = null;
     },
     cancelGesture() {
-      if (gesture.peek() === null) return;
+      const open = gesture.peek();
+      if (open === null) return;
       batch(() => {
-        step(past, future, 'before');
-        future.value = [];
+        gesture.value = null;
+        if (!open.hasStep) return;
+        past.value = past.peek().slice(0, -1);
+        replace(open.before, false);
       });
     },
     undo() {
@@ -96,7 +108,7 @@ export function createHistory(changed: (group: Group, isStep: boolean) => void):
     },
     put(group) {
       const { groups } = current.peek();
-      if (groups.some(({ id }) => id === group.id)) replace(group);
+      if (groups.some(({ id }) => id === group.id)) current.value = { groups: groups.map((each) => (each.id === group.id ? group : each)) };
       else current.value = { groups: [...groups, group] };
     },
   };

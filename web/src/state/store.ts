@@ -4,7 +4,7 @@ import { batch, computed, signal, type ReadonlySignal } from '@preact/signals';
 import type { PlaneKind } from '../shapes/plane.ts';
 import type { Point } from '../shapes/vec.ts';
 import {
-  hasPlace,
+  isNumberedAlike,
   kindOf,
   kUntitled,
   newId,
@@ -14,20 +14,23 @@ import {
   type Place,
 } from './document.ts';
 import { createHistory } from './history.ts';
-import { dismissNotice, notice } from './notice.ts';
+import { settle } from './notice.ts';
 
-/** The mode that the page is in, and the one that it is on its way to. */
+/** The mode that the page is in; empty until the first is there. */
 export const mode = signal('');
 
-/** Called with the mode of what undo or redo changed. */
-export const shownByStep = signal<((mode: string) => void) | null>(null);
+let showMode: (mode: string) => void = () => undefined;
+/** Says what shows the mode of a change that undo or redo has made. */
+export function onStep(show: (mode: string) => void): void {
+  showMode = show;
+}
 
 export const { doc, canUndo, canRedo, isLive, dispatch, endGesture, cancelGesture, undo, redo, put } = createHistory(
-  (group, isStep) => {
-    dropStalePlaces(group);
+  (before, after, isStep) => {
+    dropStalePlaces(before, after);
     // A complaint about what was tried is answered by what has been done since.
-    if (notice.peek()?.kind === 'error') dismissNotice();
-    if (isStep) shownByStep.peek()?.(group.mode);
+    settle('stroke', 'plane', 'file', 'export');
+    if (isStep) showMode(after.mode);
   },
 );
 
@@ -68,12 +71,21 @@ export const isSamePlace = (a: Place | null, b: Place | null): boolean =>
 
 export const isChosen = (place: Place): boolean => selection.peek().some((each) => isSamePlace(each, place));
 
+/** For sets and maps of places. */
+export const keyOf = ({ item, part, handle }: Place): string => `${item} ${part} ${handle ?? ''}`;
+
 export function itemBy(id: Id): Item | undefined {
   return group.peek()?.items.find((item) => item.id === id);
 }
 
-function dropStalePlaces(changed: Group): void {
-  const isStale = (place: Place) => changed.mode === mode.peek() && !hasPlace(changed, place);
+/** Places of objects whose parts or handles have other numbers now would stand for something else. */
+function dropStalePlaces(before: Group, after: Group): void {
+  if (after.mode !== mode.peek()) return;
+  const alike = new Map<Id, boolean>();
+  const isStale = ({ item }: Place): boolean => {
+    if (!alike.has(item)) alike.set(item, isNumberedAlike(item, before, after));
+    return alike.get(item) !== true;
+  };
   batch(() => {
     const kept = selection.peek().filter((place) => !isStale(place));
     if (kept.length < selection.peek().length) selection.value = kept;

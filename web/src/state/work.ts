@@ -1,13 +1,11 @@
 // Work on the document in threads, of all kinds through one queue: when it begins, what takes its place, progress,
 // and one way to end it.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals';
-import { SoapfilmError } from 'soapfilm';
+import { SoapfilmError, type Part } from 'soapfilm';
 import { createWorker, type Film } from 'soapfilm/worker';
 import type { Point } from '../shapes/vec.ts';
 import type { Place } from './document.ts';
-import { isLive } from './store.ts';
-
-type Part = 'loops' | 'polygons';
+import { isLive, mode as shownMode } from './store.ts';
 
 /** A part of an object that is at fault, one of its handles, or the edge from that handle to the next. */
 export interface Fault {
@@ -42,6 +40,8 @@ export interface Watch<Detail> {
 }
 
 export interface WorkOptions<Input extends object, Result, Detail> {
+  /** The mode that it is for. */
+  readonly mode: string;
   /** What is done: "Spanning". */
   readonly verb: string;
   /** What there is to do; null: nothing. Another object whenever it has changed, and only then. */
@@ -61,6 +61,7 @@ export interface WorkOptions<Input extends object, Result, Detail> {
 }
 
 export interface Work<Detail = unknown> {
+  readonly mode: string;
   /** What is done: "Spanning". */
   readonly verb: string;
   readonly state: ReadonlySignal<WorkState<Detail>>;
@@ -77,12 +78,16 @@ const kLiveMs = 250;
 
 const all = signal<readonly Work[]>([]);
 
-/** The work that is running, if any. */
-export const busy = computed(() => all.value.find(({ state }) => state.value.phase === 'running') ?? null);
+/** The work that is running for the mode that is shown, if any. */
+export const busy = computed(
+  () => all.value.find(({ mode, state }) => mode === shownMode.value && state.value.phase === 'running') ?? null,
+);
 
-/** Ends all that is running. */
-export function endAllWork(): void {
-  for (const work of all.peek()) work.end();
+/** Ends all that is running for the mode that is shown; says whether there was anything. */
+export function endShownWork(): boolean {
+  const running = all.peek().filter(({ mode, state }) => mode === shownMode.peek() && state.peek().phase === 'running');
+  for (const work of running) work.end();
+  return running.length > 0;
 }
 
 const threads = new Map<Part, Promise<Film>>();
@@ -130,7 +135,7 @@ export function createWork<Input extends object, Result, Detail = never>(
     running = mine;
     state.value = { phase: 'running', fraction: 0, since, detail: null };
     try {
-      const film = await threadsFor(part);
+      const film = await Promise.race([threadsFor(part), whenAborted(mine.signal)]);
       if (!isMine()) return;
       // Starting the threads says nothing of the work.
       const begunAt = performance.now();
@@ -187,6 +192,7 @@ export function createWork<Input extends object, Result, Detail = never>(
   };
 
   const work: Work<Detail> = {
+    mode: options.mode,
     verb: options.verb,
     state,
     start,
@@ -204,6 +210,14 @@ export function createWork<Input extends object, Result, Detail = never>(
   });
   return work;
 }
+
+/** Threads that are on their way are not worth waiting for any more. */
+const whenAborted = (signal: AbortSignal): Promise<never> =>
+  new Promise((_, reject) => {
+    signal.addEventListener('abort', () => {
+      reject(new SoapfilmError('cancelled', 'The work was cancelled'));
+    });
+  });
 
 /** The failure of an error without a place. */
 export function plainFailure(error: unknown): Failure {

@@ -60,7 +60,7 @@ export class FilmScene {
           dots.put([span.positions[at], span.positions[at + 1], span.positions[at + 2]], color, kInserted, 'diamond');
         }
       }
-      this.inserted.show(view.renderer.getPixelRatio(), rim);
+      this.inserted.show(view.pixelRatio.value, rim);
       view.invalidate();
     });
   }

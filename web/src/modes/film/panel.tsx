@@ -6,7 +6,7 @@ import { countOf } from '../../app/files.ts';
 import { Icon } from '../../app/icons.tsx';
 import { Show } from '../../app/panel_parts.tsx';
 import { pointCount } from '../../shapes/lines.ts';
-import { choose, chosen, dispatch } from '../../state/store.ts';
+import { choose, chosen, dispatch, endGesture } from '../../state/store.ts';
 import { film, setFilm } from './film.ts';
 import { Result } from './result.tsx';
 import { curvesOf, kPresets, presetOf, type FilmSettings, type RelativeWeights } from './settings.ts';
@@ -48,7 +48,10 @@ function Film() {
   const setWeight = (key: keyof RelativeWeights, value: number, passing: boolean) => {
     const weights = { ...settings.weights, [key]: value };
     // A span needs something to minimise.
-    if (weights.area + weights.perimeter + weights.dihedral === 0) return;
+    if (weights.area + weights.perimeter + weights.dihedral === 0) {
+      endGesture();
+      return;
+    }
     setFilm({ weights }, `weight ${key}`, passing);
   };
   return (

@@ -21,7 +21,7 @@ import { Gallery } from './gallery_sheet.tsx';
 import { exposeFilm } from './inspection.ts';
 import { FilmPanel } from './panel.tsx';
 import { figure } from './result.tsx';
-import { curveOf, curvesOf, fromLoopSet, kDefaultSettings, toLoopSet } from './settings.ts';
+import { areFilmSettings, curveOf, curvesOf, fromLoopSet, kDefaultSettings, toLoopSet, type FilmSettings } from './settings.ts';
 import { isStale, none, spanning, surface } from './spanning.ts';
 
 /** A vertex nearer to a plane lies in it, in radii of what is in view. */
@@ -37,6 +37,7 @@ export function openRoom(stage: Stage): Room {
     nouns: ['curve', 'curves'],
     fileNoun: 'loops',
     settings: kDefaultSettings,
+    areSettings: (settings) => areFilmSettings(settings as FilmSettings),
     begin() {
       const [first] = kGallery;
       const variant = first.variants?.values[0];
@@ -55,6 +56,7 @@ export function openRoom(stage: Stage): Room {
     },
     pen: {
       noun: 'curve',
+      help: 'one stroke all the way round is one closed curve',
       pen: () => pen.peek(),
       add: (points) => {
         dispatch({ type: 'add', group: film.peek().id, items: [newItem(kCurve, curveOf(points))] });

@@ -58,6 +58,17 @@ export const kDefaultSettings: FilmSettings = {
   candidates: 'auto',
 };
 
+/** Whether a span can be asked for with such settings. */
+export function areFilmSettings({ weights, objective, candidates }: FilmSettings): boolean {
+  const all = [weights.area, weights.perimeter, weights.dihedral];
+  return (
+    all.every((weight) => weight >= 0 && weight < Infinity) &&
+    all.some((weight) => weight > 0) &&
+    ['sum', 'worst-dihedral'].includes(objective) &&
+    ['auto', 'delaunay', 'near', 'all'].includes(candidates)
+  );
+}
+
 export function presetOf(weights: RelativeWeights): Preset | undefined {
   return kPresets.find((preset) => isSame(preset.weights, weights));
 }

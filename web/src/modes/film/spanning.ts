@@ -2,7 +2,7 @@
 import { computed, signal } from '@preact/signals';
 import type { NoSpan, Span, SpaceUsed } from 'soapfilm';
 import { createWork } from '../../state/work.ts';
-import { film } from './film.ts';
+import { film, kMode } from './film.ts';
 import { curvesOf, isReshaped, spanOptions, toLoopSet, type FilmGroup } from './settings.ts';
 import { describeFailure } from './wording.ts';
 
@@ -38,6 +38,7 @@ export const isStale = computed(() => {
 const kShowBestMs = 3000;
 
 export const spanning = createWork<FilmGroup, Span | NoSpan, Bounds>({
+  mode: kMode,
   verb: 'Spanning',
   part: 'loops',
   input,

@@ -56,7 +56,7 @@ export function drawTriangulation({ view, theme }: Stage, { root, placement }: M
       }
     }
     for (const { point } of failures.value) if (point) dots.put(point, curves.fault, kFaultRing, 'ring');
-    points.show(view.renderer.getPixelRatio(), curves.rim);
+    points.show(view.pixelRatio.value, curves.rim);
   });
 
   // The active chain's ends, and the level of the water between them.
@@ -73,6 +73,6 @@ export function drawTriangulation({ view, theme }: Stage, { root, placement }: M
       if (path.length > 1) chain.put(pathOf(path, false, placement.value), { color: curves.selected, width: kChainWidth, isOnTop: true, order: 3 });
       for (const point of path) dots.put(point, curves.selected, kChainDot);
     }
-    chainEnds.show(view.renderer.getPixelRatio(), curves.rim);
+    chainEnds.show(view.pixelRatio.value, curves.rim);
   });
 }

@@ -5,7 +5,7 @@ import type { Film } from 'soapfilm/worker';
 import type { Lines } from '../../shapes/lines.ts';
 import { complain, say } from '../../state/notice.ts';
 import { createWork, plainFailure } from '../../state/work.ts';
-import { flatten, polygonGroup, type PolygonGroup } from './polygons.ts';
+import { flatten, kMode, polygonGroup, type PolygonGroup } from './polygons.ts';
 import { isOfPolygon } from './wording.ts';
 
 /** All steps, polygon after polygon, and the triangles that they make in their order. */
@@ -32,6 +32,7 @@ export const flooding: ReadonlySignal<Flooding | null> = flooded;
 export const isFlooding = computed(() => wanted.value !== null);
 
 const work = createWork<PolygonGroup, Flood>({
+  mode: kMode,
   verb: 'Flooding',
   // Once the polygons have changed there is nothing more to show.
   input: computed(() => (wanted.value === polygonGroup.value ? wanted.value : null)),

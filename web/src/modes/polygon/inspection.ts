@@ -1,13 +1,13 @@
 // `window.__polygons`: the mode's state, read-only, for the page's tests and for a look from the console.
 import { computed } from '@preact/signals';
-import { inWindow, valuesOf } from '../../inspection.ts';
+import { inWindow, valuesOf } from '../../app/inspection.ts';
 import type { ModeScene } from '../../scene/mode_scene.ts';
 import type { Stage } from '../../scene/stage.ts';
 import { lineCount, type Lines } from '../../shapes/lines.ts';
 import type { Point2 } from '../../shapes/plane.ts';
 import { chosen, mode } from '../../state/store.ts';
 import { flooding, type Flooding } from './flooding.ts';
-import { polygonGroup } from './polygons.ts';
+import { kMode, polygonGroup } from './polygons.ts';
 import { triangulated } from './triangulating.ts';
 import type { Triangulation } from './triangulation.ts';
 
@@ -38,7 +38,7 @@ const document = computed(() => ({
 const selection = computed(() => {
   const [place, items] = [chosen.value, polygonGroup.value.items];
   const polygon = items.findIndex(({ id }) => id === place?.item);
-  if (place === null || polygon < 0 || mode.value !== 'polygon') return null;
+  if (place === null || polygon < 0 || mode.value !== kMode) return null;
   const { part: ring, handle } = place;
   const { starts } = items[polygon].shape as Lines;
   return { polygon, ring, vertex: handle === null ? null : handle - starts[ring] };

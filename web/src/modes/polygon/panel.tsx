@@ -1,6 +1,6 @@
 // The panel of the mode: what triangulating came to, how it is done, the pen, examples.
 import { computed } from '@preact/signals';
-import { PenFields } from '../../app/bars.tsx';
+import { PenFields } from '../../app/pen_fields.tsx';
 import { Section, Segments, type Choice } from '../../app/controls.tsx';
 import { countOf } from '../../app/files.ts';
 import { Row, Show } from '../../app/panel_parts.tsx';

@@ -9,7 +9,12 @@ import { hostOf, polygonGroup, polygonKind, withHole } from './polygons.ts';
 
 export const ringPen = signal<Pen>({ count: 24, smoothing: 0.3 });
 
-export const penTool: PenTool = { noun: 'ring', pen: () => ringPen.value, add: addRing };
+export const penTool: PenTool = {
+  noun: 'ring',
+  help: 'one stroke all the way round is one ring; inside another it is a hole',
+  pen: () => ringPen.value,
+  add: addRing,
+};
 
 function addRing(points: readonly Point[]): void {
   const { id, items } = polygonGroup.peek();

@@ -6,15 +6,27 @@ import { boxOfItem, type Group, type Item } from '../../state/document.ts';
 import { groupOf } from '../../state/store.ts';
 import type { PolygonOptions } from 'soapfilm';
 
+/** The name of the mode, and of the kind of its objects. */
+export const kMode = 'polygon';
 export const kPolygon = 'polygon';
 
 export type PolygonSettings = Required<Pick<PolygonOptions, 'method' | 'output' | 'quality' | 'repair'>>;
 export type PolygonGroup = Group<PolygonSettings>;
 
+/** Whether the library takes such settings. */
+export function arePolygonSettings({ method, output, quality, repair }: PolygonSettings): boolean {
+  return (
+    ['flooding', 'trapezoids'].includes(method) &&
+    ['triangles', 'strips'].includes(output) &&
+    ['fast', 'delaunay'].includes(quality) &&
+    ['none', 'even-odd', 'nonzero'].includes(repair)
+  );
+}
+
 export const kSettings: PolygonSettings = { method: 'flooding', output: 'triangles', quality: 'fast', repair: 'none' };
 
 /** The polygons of the document. */
-export const polygonGroup = groupOf('polygon', kSettings);
+export const polygonGroup = groupOf(kMode, kSettings);
 
 export const polygonKind = lineKind({
   name: kPolygon,

@@ -50,7 +50,7 @@ function add(polygons: Lines[], coordinates: unknown): void {
   // GeoJSON has empty geometries.
   if (rings.length === 0) return;
   const starts = new Uint32Array(rings.length + 1);
-  rings.forEach((ring, r) => (starts[r + 1] = starts[r] + countOf(ring)));
+  rings.forEach((ring, r) => (starts[r + 1] = starts[r] + lengthOf(ring)));
   const positions = new Float64Array(2 * starts[rings.length]);
   let at = 0;
   rings.forEach((ring, r) => {
@@ -64,7 +64,7 @@ function add(polygons: Lines[], coordinates: unknown): void {
 }
 
 /** The points of a ring, without the end that repeats the beginning. */
-function countOf(ring: readonly unknown[]): number {
+function lengthOf(ring: readonly unknown[]): number {
   if (ring.length === 0) throw bad('a ring in its GeoJSON has no points');
   const [first, last] = [listOf(ring[0]), listOf(ring[ring.length - 1])];
   first.slice(0, 2).forEach(numberOf);

@@ -7,7 +7,7 @@ import { endFlooding } from './flooding.ts';
 import { exposeForInspection } from './inspection.ts';
 import { Panel, Step, summary } from './panel.tsx';
 import { penTool } from './pen.ts';
-import { kSettings, polygonKind } from './polygons.ts';
+import { arePolygonSettings, kSettings, polygonKind, type PolygonSettings } from './polygons.ts';
 import { readPolygons } from './read.ts';
 import { failures } from './triangulating.ts';
 
@@ -16,7 +16,9 @@ export const openRoom = (stage: Stage): Room => ({
   kinds: [polygonKind],
   nouns: ['polygon', 'polygons'],
   fileNoun: 'polygons',
+  partNoun: 'ring',
   settings: kSettings,
+  areSettings: (settings) => arePolygonSettings(settings as PolygonSettings),
   begin: beginWithExample,
   draw: (scene) => {
     drawTriangulation(stage, scene);
@@ -30,7 +32,6 @@ export const openRoom = (stage: Stage): Room => ({
   help: {
     about: 'Polygons with holes in, triangles out: they lie inside and cover everything.',
     rows: [
-      { section: 'Tools', keys: 'D', what: 'A ring is a polygon; inside another it is a hole' },
       { section: 'View', keys: 'Right drag, two fingers', what: 'Move, with either tool' },
       { section: 'View', keys: 'Arrows, + −', what: 'Move and zoom, with the drawing in focus' },
     ],

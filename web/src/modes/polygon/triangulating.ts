@@ -3,7 +3,7 @@ import { computed, effect, signal } from '@preact/signals';
 import { isLive } from '../../state/store.ts';
 import { createWork, plainFailure, type Failure } from '../../state/work.ts';
 import { DragSession } from './drag_session.ts';
-import { polygonGroup, type PolygonGroup } from './polygons.ts';
+import { kMode, polygonGroup, type PolygonGroup } from './polygons.ts';
 import { nothingOf, triangulateAll, type Triangulation } from './triangulation.ts';
 import { failureOf } from './wording.ts';
 
@@ -26,6 +26,7 @@ effect(() => {
 });
 
 export const work = createWork<PolygonGroup, Triangulation>({
+  mode: kMode,
   verb: 'Triangulating',
   input: computed(() => (polygonGroup.value.items.length > 0 ? polygonGroup.value : null)),
   part: 'polygons',
