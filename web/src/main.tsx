@@ -51,7 +51,7 @@ if (stage === null) {
   const tools = new Tools(stage, () => room()?.pen ?? null, () => room()?.pressed?.());
   const actions = computed(() => actionsOf(stage, tools, current.value?.room));
   render(<App modes={kModes} stage={stage} scene={scene} actions={() => actions.value} />, root);
-  attachKeyboard(canvas, () => actions.peek());
+  attachKeyboard({ canvas, actions: () => actions.peek(), isBusy: () => tools.isBusy });
   await restoreDraft();
   await startRooms({ modes: kModes, stage, leave: () => void tools.cancel() });
   keepDrafts();

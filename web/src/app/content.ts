@@ -3,6 +3,9 @@
 /** Enough to tell a format by its beginning. */
 const kHeadBytes = 4096;
 
+/** Space, tab, line feed and carriage return. */
+const kBlanks: readonly number[] = [32, 9, 10, 13];
+
 /** Encodings besides UTF-8, by the two bytes that such a text begins with. */
 const kEncodings: readonly (readonly [first: number, second: number, name: string])[] = [
   [0xff, 0xfe, 'utf-16le'],
@@ -22,7 +25,13 @@ export class Content {
 
   /** The beginning, as text, without leading white space. */
   get head(): string {
-    this.#head ??= this.#decode(this.bytes.subarray(0, kHeadBytes)).trimStart();
+    if (this.#head === undefined) {
+      // White space of any length, in one byte a character or two; the byte mark stays.
+      let first = 0;
+      while (first < this.bytes.length && kBlanks.includes(this.bytes[first])) first++;
+      const from = first < kHeadBytes ? 0 : first & ~1;
+      this.#head = this.#decode(this.bytes.subarray(from, from + 2 * kHeadBytes)).trimStart();
+    }
     return this.#head;
   }
 

@@ -139,7 +139,8 @@ function coreActions(stage: Stage, tools: Tools, room: Room | undefined): readon
       bar: 'edit',
       icon: 'undo',
       applies: () => canUndo.value,
-      run: undo,
+      // What the pointer has begun is taken back first.
+      run: () => { if (!tools.cancel()) undo(); },
     },
     {
       id: 'redo',

@@ -3,13 +3,24 @@ import { endNudge } from '../scene/nudge.ts';
 import { runByKey, type Action } from './actions.ts';
 import { openDialog } from './dialogs.tsx';
 
-export function attachKeyboard(canvas: HTMLCanvasElement, actions: () => readonly Action[]): void {
+/** Actions that count while the pointer has begun something: they end it. */
+const kWhileBusy = ['undo', 'escape'];
+
+interface KeyboardOptions {
+  readonly canvas: HTMLCanvasElement;
+  readonly actions: () => readonly Action[];
+  /** Whether the pointer has begun something. */
+  readonly isBusy: () => boolean;
+}
+
+export function attachKeyboard({ canvas, actions, isBusy }: KeyboardOptions): void {
   window.addEventListener('keydown', (event) => {
     if (event.defaultPrevented) return;
     if (openDialog.peek() !== null || isTyping(event)) return;
     // A button takes the space bar for itself.
     if (event.key === ' ' && event.target instanceof HTMLButtonElement) return;
-    if (runByKey(actions(), event, event.target === canvas)) event.preventDefault();
+    const all = isBusy() ? actions().filter(({ id }) => kWhileBusy.includes(id)) : actions();
+    if (runByKey(all, event, event.target === canvas)) event.preventDefault();
   });
   window.addEventListener('keyup', endNudge);
   window.addEventListener('blur', endNudge);

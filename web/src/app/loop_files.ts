@@ -15,8 +15,8 @@ export const kLoopFiles: readonly FileKind[] = [
     what: 'a JSON file of loops',
     label: 'JSON',
     extensions: ['.json'],
-    // Whatever is not JSON of something else, such as glTF: who reads it says what is wrong with it.
-    isIt: (content) => content.isJson && content.jsonType === undefined && !content.hasKey('asset'),
+    // A list, or an object with loops. If it is broken JSON, who reads it says what is wrong with it.
+    isIt: (content) => content.isJson && (content.json === undefined || Array.isArray(content.json) || content.hasKey('loops')),
   },
   {
     id: 'obj-lines',

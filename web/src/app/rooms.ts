@@ -46,7 +46,7 @@ export function startRooms(given: RoomsOptions): Promise<OpenedMode | null> {
   options = given;
   for (const { id } of given.modes) entries.set(id, { opened: null, isBegun: false, isFresh: false, lost: 0, failures: 0 });
   onStep((id) => {
-    if (id !== shown.peek()) void goTo(id);
+    if (id !== shown.peek()) chooseMode(id);
   });
   window.addEventListener('hashchange', () => void goTo(idInAddress()));
   window.addEventListener('popstate', () => void goTo(idInAddress()));
@@ -65,9 +65,12 @@ export async function goTo(id: string): Promise<OpenedMode | null> {
   }
   awaited.value = mode.id;
   try {
-    const { openRoom } = await mode.fetch();
-    if (awaited.peek() !== mode.id) return null;
-    entry.opened ??= enroll(mode, entry, openRoom, options.stage);
+    // At once where it is there already.
+    if (entry.opened === null) {
+      const { openRoom } = await mode.fetch();
+      if (awaited.peek() !== mode.id) return null;
+      entry.opened ??= enroll(mode, entry, openRoom, options.stage);
+    }
   } catch (error) {
     console.warn(error);
     if (awaited.peek() !== mode.id) return null;
@@ -82,7 +85,7 @@ export async function goTo(id: string): Promise<OpenedMode | null> {
   return entry.opened;
 }
 
-/** Goes to a mode because a button asks for it: a step in the browser's own history. */
+/** Goes to a mode because the user has asked for it: a step in the browser's own history. */
 export function chooseMode(id: string): void {
   settle('mode');
   if (id !== shown.peek()) setAddress(id, true);

@@ -109,10 +109,15 @@ export class Tools {
     });
   }
 
+  /** Whether the pointer has begun something. */
+  get isBusy(): boolean {
+    return this.state.name !== 'idle' && this.state.name !== 'leaving';
+  }
+
   /** Ends what the pointer has begun, without effect; says whether there was anything. */
   cancel(): boolean {
     const { name } = this.state;
-    if (name === 'idle' || name === 'leaving') return false;
+    if (!this.isBusy) return false;
     this.enter(kIdle);
     if (name === 'dragging') cancelGesture();
     return true;
@@ -182,7 +187,7 @@ export class Tools {
     const frame = this.stage.dragPlane(point);
     const grip = this.meet(frame, event);
     if (grip === null) {
-      complain('The drawing plane is seen edge-on here. Turn the view, or drag in the view plane.', 'plane');
+      complain('The drawing plane is seen edge-on here, or lies behind you. Turn the view, or drag in the view plane.', 'plane');
       return null;
     }
     // Chosen at once, so that its settings are at hand; with Shift once the press has ended.
@@ -195,7 +200,7 @@ export class Tools {
     const frame = this.stage.drawingPlane();
     const start = this.meet(frame, event);
     if (start === null) {
-      complain('The drawing plane is seen edge-on here. Turn the view, or face the plane (P).', 'plane');
+      complain('The drawing plane is seen edge-on here, or lies behind you. Turn the view, or face the plane (P).', 'plane');
       return kIdle;
     }
     choose();

@@ -24,7 +24,9 @@ export interface Drafts {
 }
 
 /** Storage that has not answered by then is not waited for. */
-const kPatienceMs = 2000;
+const kPatienceMs = 10_000;
+
+const kNoAnswer = new Error('No answer.');
 
 const kAside: Record<Problem, string> = {
   version: 'A draft in this browser is of another version of this page and was not opened. It is kept.',
@@ -39,6 +41,7 @@ export function createDrafts(browser: Browser, history: Pick<History, 'doc' | 'i
   /** The document as it is stored, or is going to be. */
   let stored = doc.peek();
   let hasComplained = false;
+  let isLate = false;
   let remark = (): void => undefined;
 
   const write = async (next: Document): Promise<void> => {
@@ -63,8 +66,9 @@ export function createDrafts(browser: Browser, history: Pick<History, 'doc' | 'i
       let claim: Claim;
       try {
         claim = await within(kPatienceMs, claimSlot(browser));
-      } catch {
-        // Said once a draft cannot be stored, since until then nothing is lost. A slot that may hold a draft is let be.
+      } catch (error) {
+        // A slot that may hold a draft is let be: whoever comes next takes it over.
+        isLate = error === kNoAnswer;
         claim = { slot: browser.newSlot(), doc: null, from: 'none', areAllHeld: false, problem: null };
       }
       slot = claim.slot;
@@ -76,7 +80,8 @@ export function createDrafts(browser: Browser, history: Pick<History, 'doc' | 'i
       }
       stored = doc.peek();
       remark = () => {
-        remarkOn(claim, browser.hold !== null);
+        if (isLate) complain('The drafts of this browser could not be read in time. They are kept.', 'draft');
+        else remarkOn(claim, browser.hold !== null);
       };
       return claim.from;
     },
@@ -137,7 +142,7 @@ export function latestOnly<T>(call: (value: T) => Promise<void>): Latest<T> {
 
 function within<T>(ms: number, promise: Promise<T>): Promise<T> {
   return new Promise((resolve, reject) => {
-    setTimeout(reject, ms, new Error('No answer.'));
+    setTimeout(reject, ms, kNoAnswer);
     promise.then(resolve, reject);
   });
 }

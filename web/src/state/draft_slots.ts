@@ -38,8 +38,11 @@ export interface Claim {
 }
 
 const kMostDrafts = 8;
-/** A page that is loaded again may have to wait so long until the one before has let go of its lock. */
-const kReloadMs = 300;
+/**
+ * A page that is loaded again may have to wait so long until the one before has let go of its lock. Only a copied tab
+ * waits in vain, and starts that much later.
+ */
+const kReloadMs = 2500;
 
 const kPrefix = 'draft ';
 const keyOf = (slot: string): string => kPrefix + slot;

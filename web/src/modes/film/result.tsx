@@ -84,6 +84,11 @@ function Failed({ state }: { state: StateIn<'failed'> }) {
     <div class="message error">
       <p>{state.message}</p>
       {state.faults.length > 0 && <p class="muted">The place is marked in red.</p>}
+      {state.code === 'load-failed' && (
+        <button type="button" class="button" onClick={spanning.start}>
+          Try again
+        </button>
+      )}
       {isTooMuch && (
         <button
           type="button"

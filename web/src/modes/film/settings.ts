@@ -112,12 +112,16 @@ export const listOf = (curve: Lines): number[][] => Array.from({ length: pointCo
 
 export const curveOf = (points: readonly (readonly number[])[]): Lines => linesOf(3, [points]);
 
+/** A weight of curves so small that their squared size is no number any more. */
+const bounded = (weight: number): number => (Number.isNaN(weight) ? 0 : Math.min(weight, kMostWeight));
+const kMostWeight = 1e300;
+
 /** The library's options for a film, its relative weights made absolute. */
 export function spanOptions(group: FilmGroup): SpanOptions {
   const { weights, objective, candidates } = group.settings;
   const size = boundsOf(boxOfGroup(group)).diagonal || 1;
   return {
-    weights: { area: weights.area / size ** 2, perimeter: weights.perimeter / size, dihedral: weights.dihedral },
+    weights: { area: bounded(weights.area / size ** 2), perimeter: bounded(weights.perimeter / size), dihedral: weights.dihedral },
     objective,
     candidates,
   };
