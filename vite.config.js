@@ -63,6 +63,14 @@ export default defineConfig({
     target: 'es2022',
     chunkSizeWarningLimit: 1000,
     modulePreload: { polyfill: false },
+    // All styles come with the page: they are small, and a mode that is fetched later then needs its script alone.
+    cssCodeSplit: false,
+    rolldownOptions: {
+      output: {
+        // What every mode stands on is one file: split by who uses it, it would be larger.
+        codeSplitting: { groups: [{ name: 'core', test: /web\/src\/(shapes|state|scene|app)\/(?!(sheets|formats|known_files)\.)|node_modules\/(three|preact|@preact|idb-keyval)\// }] },
+      },
+    },
   },
   worker: { format: 'es' },
   preview: { port: 4173 },

@@ -42,6 +42,14 @@ const kCore: Readonly<Partial<Record<string, readonly string[]>>> = (() => {
   };
 })();
 
+/** What the folders of web/src may import besides their own: all that stands below. Modes are in folders of their own. */
+const kPage: Readonly<Partial<Record<string, readonly string[]>>> = (() => {
+  const state = ['shapes'];
+  const scene = ['state', ...state];
+  const app = ['scene', ...scene];
+  return { shapes: [], state, scene, app, mode: ['app', ...app], modes: ['app', 'mode'], '': ['app', 'modes', ...app] };
+})();
+
 /** Names by which code outside wasm/ may know the library. */
 const kPublic = [
   'soapfilm',
@@ -144,11 +152,35 @@ function judgeLibrary({ path: file, text }: SourceFile): string[] {
   return reasons;
 }
 
+/**
+ * Where a file of the page stands: in a folder of its core; in the folder of one mode, as `mode`; in the registry of
+ * the modes, as `modes`; or above all, as the empty string.
+ */
+function placeInPage(file: string): { readonly layer: string; readonly mode?: string } {
+  const [folder, name, ...below] = file.slice('web/src/'.length).split('/');
+  if (!file.slice('web/src/'.length).includes('/')) return { layer: '' };
+  if (folder !== 'modes') return { layer: folder };
+  return below.length === 0 ? { layer: 'modes' } : { layer: 'mode', mode: name };
+}
+
+/** A mode imports the core and itself; only the registry imports a mode; nothing but the top imports the registry. */
+function judgePage(file: string, target: string): string[] {
+  const [from, to] = [placeInPage(file), placeInPage(target)];
+  if (from.mode !== undefined && to.mode !== undefined && from.mode !== to.mode) {
+    return [`is of the mode ${from.mode} and imports ${target}, of the mode ${to.mode}`];
+  }
+  if (from.layer === 'mode' && to.layer === '') return [`imports ${target}, against the arrows`];
+  const allowed = kPage[from.layer];
+  if (!allowed) return [`web/src/${from.layer} has no place among the layers`];
+  return from.layer === to.layer || allowed.includes(to.layer) ? [] : [`${from.layer} imports ${target}, against the arrows`];
+}
+
 function judgeOutside({ path: file, text }: SourceFile): string[] {
   const top = file.split('/')[0];
   return imports(text).flatMap((target) => {
     if (target.startsWith('.')) {
       const resolved = path.posix.join(path.posix.dirname(file), target);
+      if (file.startsWith('web/src/') && /^web\/src\/.*\.tsx?$/.test(resolved)) return judgePage(file, resolved);
       if (resolved.startsWith('wasm/')) return [`imports ${target} instead of 'soapfilm'`];
       const other = resolved.split('/')[0];
       const crosses = other !== top && !(top === 'tests' && ['examples', 'web'].includes(other));

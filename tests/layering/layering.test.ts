@@ -35,6 +35,15 @@ describe('layers', () => {
     ['a page that reaches into wasm', 'web/src/a.ts', "import { load } from '../../wasm/ts/load.js';"],
     ['a test that reaches into dist', 'tests/unit/a.test.ts', "await import('../../wasm/dist/index.js')"],
     ['an example with a private name', 'examples/01.mjs', "import 'soapfilm/wasm/dist/load.js';"],
+    ['a mode that imports another', 'web/src/modes/film/a.ts', "import { kPolygon } from '../polygon/kind.ts';"],
+    ['a mode fetched by a core that knows it', 'web/src/app/a.ts', "await import('../modes/film/room.tsx');"],
+    ['a registry seen by the core', 'web/src/app/a.ts', "import { kModes } from '../modes/index.ts';"],
+    ['a mode that imports the registry', 'web/src/modes/film/a.ts', "import { kModes } from '../index.ts';"],
+    ['state that draws', 'web/src/state/a.ts', "import { View } from '../scene/view.ts';"],
+    ['a scene with panels', 'web/src/scene/a.ts', "import { Section } from '../app/controls.tsx';"],
+    ['shapes that know the state', 'web/src/shapes/a.ts', "import { doc } from '../state/store.ts';"],
+    ['a mode that puts the page together', 'web/src/modes/film/a.ts', "import '../../main.tsx';"],
+    ['a folder of the page without a layer', 'web/src/util/a.ts', "import { add } from '../shapes/vec.ts';"],
     ['a page that imports tests', 'web/src/a.ts', "import { circle } from '../../tests/support/a.ts';"],
   ];
   test.each(bad)('%s: is found', (_, file, text) => {
@@ -51,6 +60,9 @@ describe('layers', () => {
     ['Node in a Node file', 'wasm/ts/node_host.ts', "import { Worker } from 'node:worker_threads';"],
     ['the library by name', 'web/src/a.ts', "import { load } from 'soapfilm';\nimport * as t from 'three';"],
     ['a test of the page', 'tests/page/a.test.ts', "import { join } from '../../web/src/a.ts';"],
+    ['a mode on the core', 'web/src/modes/film/a.tsx', "import { Section } from '../../app/controls.tsx';\nimport { b } from './b.ts';"],
+    ['a registry of modes', 'web/src/modes/index.ts', "import { film } from './film/mode.ts';"],
+    ['the page on its registry', 'web/src/main.tsx', "import { kModes } from './modes/index.ts';"],
     ['an import in a comment', 'wasm/ts/load.ts', "// import { load } from 'soapfilm'"],
   ];
   test.each(good)('%s: is allowed', (_, file, text) => {

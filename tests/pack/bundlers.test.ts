@@ -8,8 +8,8 @@ import { build as vite, createServer as createViteServer } from 'vite';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { list, packAndInstall, type Consumer } from './consumer.ts';
 
-// An app that spans two loops on the main thread and in a worker, and triangulates a polygon in either,
-// and says so in its title.
+// An app that spans two loops on the main thread and in a worker, triangulates a polygon in either, opens a
+// session on it in a worker, and says so in its title.
 const kApp = `
   import { load, spanLoops, triangulatePolygon } from 'soapfilm';
   import { createWorker } from 'soapfilm/worker';
@@ -22,6 +22,8 @@ const kApp = `
     const polygon = [[[0, 0], [9, 0], [9, 9], [0, 9]], [[2, 2], [4, 2], [3, 4]]];
     const found = [spanLoops(loops), await film.spanLoops(loops)];
     found.push(triangulatePolygon(polygon), await film.triangulatePolygon(polygon));
+    const session = await film.createPolygonSession(polygon);
+    found.push({ triangles: await session.triangles });
     film.dispose();
     return found.map(({ triangles }) => triangles.length / 3).join(' ');
   }
@@ -29,7 +31,7 @@ const kApp = `
     (title) => (document.title = title),
     (error) => (document.title = 'failed: ' + error.message),
   );`;
-const kTitle = '14 14 7 7';
+const kTitle = '14 14 7 7 7';
 
 const kTypes: Readonly<Record<string, string>> = {
   '.html': 'text/html',

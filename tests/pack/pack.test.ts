@@ -96,11 +96,12 @@ describe('in Node', () => {
       const polygon = [[[0, 0], [9, 0], [9, 9], [0, 9]], [[2, 2], [4, 2], [3, 4]]];
       const film = await createWorker();
       const there = await film.triangulatePolygon(polygon, { quality: 'delaunay' });
-      film.dispose();
       const session = new PolygonSession(polygon);
+      const remote = await film.createPolygonSession(polygon);
       console.log(triangulatePolygon(polygon).triangles.length / 3, there.triangles.length / 3,
-        session.insertPoint([6, 6]).triangleCount);`;
-    expect((await consumer.run('polygon.mjs', source)).trim()).toBe('7 7 9');
+        session.insertPoint([6, 6]).triangleCount, (await remote.insertPoint([6, 6])).triangleCount);
+      film.dispose();`;
+    expect((await consumer.run('polygon.mjs', source)).trim()).toBe('7 7 9 9');
   });
 
   test('the worker: spans two loops and lets the process end', async () => {
@@ -141,7 +142,7 @@ describe('in TypeScript', () => {
         load, PolygonSession, spanLoops, SoapfilmError, triangulateGeoJSON, triangulatePolygon, triangulatePolygons,
         type LoopSet, type PolygonOptions, type PolygonTriangulation, type SpanOptions,
       } from 'soapfilm';
-      import { createWorker } from 'soapfilm/worker';
+      import { createWorker, type PolygonSessionHandle } from 'soapfilm/worker';
       const loops: LoopSet = { positions: new Float64Array(9), starts: Uint32Array.of(0, 3) };
       const options: SpanOptions = { weights: { area: 1 }, onProgress: (fraction) => fraction + 1 };
       await load();
@@ -158,6 +159,8 @@ describe('in TypeScript', () => {
         const { featureStarts } = triangulateGeoJSON({ type: 'Polygon', coordinates: [] } as { type: string });
         using session = new PolygonSession([[[0, 0], [1, 0], [0, 1]]]);
         session.move(0, [polygon.triangles.length, triangles.length + errors.length + featureStarts.length]);
+        using handle: PolygonSessionHandle = await film.createPolygonSession([[[0, 0], [1, 0], [0, 1]]]);
+        const { changed } = await handle.move(0, [(await handle.triangles).length, (await handle.read()).next.length]);
         film.dispose();
       } catch (error) {
         if (error instanceof SoapfilmError && error.code === 'bad-loops') throw error;

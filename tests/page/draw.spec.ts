@@ -8,7 +8,8 @@ test('first visit: an example is spanned and grows in triangle by triangle', asy
   await page.goto('?aa=0&dpr=1');
   const grows = async (): Promise<boolean> => {
     await page.clock.runFor(50);
-    return (await stateOf(page)).isGrowing;
+    const isThere = await page.evaluate(() => window.__soapfilm !== undefined);
+    return isThere && (await stateOf(page)).isGrowing;
   };
   await expect.poll(grows, { intervals: [30] }).toBe(true);
   expectSpans((await spanned(page)).span, 2);

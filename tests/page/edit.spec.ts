@@ -1,4 +1,4 @@
-import { expect, hasCurves, lookFrom, openPage, spanned, stateOf, test, whereIs } from './support.ts';
+import { canvasBox, drawCircle, expect, hasCurves, lookFrom, openEmpty, openPage, spanned, stateOf, test, whereIs } from './support.ts';
 
 test.beforeEach(async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'reduce' });
@@ -139,4 +139,143 @@ test('keyboard alone: curves are added, chosen, shaped and spanned', async ({ qu
   await expect(page.getByRole('dialog', { name: 'Keys and gestures' })).toBeVisible();
   await page.keyboard.press('Escape');
   await expect(page.getByRole('dialog')).toBeHidden();
+});
+
+test('a chosen curve: is dragged as a whole, lifted in a view from the side, and goes back in one step', async ({ quietPage: page }) => {
+  await openPage(page);
+  const { curves } = await stateOf(page);
+  await lookFrom(page, 'minus y');
+  await page.getByRole('button', { name: 'Curve 1 32 vertices' }).click();
+  // A vertex of it: what is chosen as a whole is dragged as a whole.
+  const from = await whereIs(page, 0, 20);
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x, from.y - 60, { steps: 4 });
+  await page.mouse.up();
+  const lifted = await spanned(page);
+  expect(lifted.curves[1]).toEqual(curves[1]);
+  const rises = lifted.curves[0].map((point, i) => point.map((x, axis) => x - curves[0][i][axis]));
+  for (const [dx, dy, dz] of rises) {
+    expect(dz).toBeGreaterThan(0.05);
+    expect(dz).toBeCloseTo(rises[0][2], 9);
+    expect(Math.hypot(dx, dy)).toBeLessThan(1e-9);
+  }
+  expect(lifted.selection).toEqual({ curve: 0, vertex: null });
+  await page.locator('canvas').focus();
+  await page.keyboard.press('ArrowDown');
+  expect((await stateOf(page)).curves[0][0][2]).toBeLessThan(lifted.curves[0][0][2]);
+  await page.keyboard.press('Control+z');
+  await page.keyboard.press('Control+z');
+  const undone = await spanned(page);
+  expect(undone.curves).toEqual(curves);
+  expect(undone.canUndo).toBe(false);
+});
+
+test('Delete: takes the chosen vertex, not its curve; of a triangle the whole', async ({ quietPage: page }) => {
+  await openPage(page);
+  const { curves } = await stateOf(page);
+  const at = await whereIs(page, 0, 20);
+  await page.mouse.click(at.x, at.y);
+  await expect(page.getByRole('button', { name: 'Delete the chosen vertex' })).toBeEnabled();
+  await page.keyboard.press('Delete');
+  const state = await spanned(page);
+  expect(state.curves).toEqual([curves[0].filter((_, i) => i !== 20), curves[1]]);
+  await page.getByLabel('File of loops').setInputFiles({
+    name: 'triangle.json',
+    mimeType: 'text/plain',
+    buffer: Buffer.from('[[[0,0,0],[1,0,0],[0,1,0.2]]]'),
+  });
+  await hasCurves(page, 1);
+  await page.keyboard.press(']');
+  await page.keyboard.press('.');
+  await page.keyboard.press('Delete');
+  await hasCurves(page, 0);
+});
+
+test('several vertices: chosen with Shift, by click and by box, moved and deleted together', async ({ quietPage: page }) => {
+  await openPage(page);
+  await lookFrom(page, 'plus z');
+  const { curves } = await stateOf(page);
+  const spots = await Promise.all([0, 8, 16].map((vertex) => whereIs(page, 0, vertex)));
+  await page.mouse.click(spots[0].x, spots[0].y);
+  await page.keyboard.down('Shift');
+  await page.mouse.click(spots[1].x, spots[1].y);
+  expect((await stateOf(page)).places).toBe(2);
+  // From the middle, where nothing is, around the vertex at the left.
+  const box = await canvasBox(page);
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2 - 20);
+  await page.mouse.down();
+  await page.mouse.move(spots[2].x - 30, spots[2].y + 20, { steps: 4 });
+  await expect(page.locator('.selection-box')).toBeVisible();
+  await page.mouse.up();
+  await page.keyboard.up('Shift');
+  await expect(page.locator('.selection-box')).toBeHidden();
+  const { places } = await stateOf(page);
+  expect(places).toBeGreaterThanOrEqual(3);
+  await page.locator('canvas').focus();
+  await page.keyboard.press('ArrowRight');
+  const moved = (await stateOf(page)).curves.flat().filter((point, i) => point[0] !== curves.flat()[i][0]).length;
+  expect(moved).toBe(places);
+  await page.keyboard.press('Delete');
+  expect((await stateOf(page)).curves.flat()).toHaveLength(curves.flat().length - places);
+});
+
+test('a complaint: goes with the next stroke, with a change, with what it was about', async ({ quietPage: page }) => {
+  await openEmpty(page);
+  await page.keyboard.press('d');
+  const complaint = page.getByText('That stroke was too short');
+  await drawCircle(page, { x: 0.5, y: 0.5, radius: 3 });
+  await expect(complaint).toBeVisible();
+  await drawCircle(page, { x: 0.5, y: 0.5, radius: 90 });
+  await hasCurves(page, 1);
+  await expect(complaint).toBeHidden();
+  await drawCircle(page, { x: 0.5, y: 0.5, radius: 3 });
+  await expect(complaint).toBeVisible();
+  await page.keyboard.press('Control+z');
+  await expect(complaint).toBeHidden();
+  await page.keyboard.press('2');
+  await drawCircle(page, { x: 0.5, y: 0.5, radius: 90 });
+  await expect(page.getByText('seen edge-on')).toBeVisible();
+  await page.keyboard.press('1');
+  await expect(page.getByText('seen edge-on')).toBeHidden();
+});
+
+test('undo and redo by the keys of a Mac; a drag back to where it began costs no step', async ({ quietPage: page }) => {
+  await openPage(page);
+  await page.keyboard.press('a');
+  await hasCurves(page, 3);
+  await page.keyboard.press('Meta+z');
+  await hasCurves(page, 2);
+  await page.keyboard.press('Meta+Shift+z');
+  await hasCurves(page, 3);
+  const from = await whereIs(page, 0, 20);
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x + 30, from.y, { steps: 3 });
+  await page.mouse.move(from.x, from.y, { steps: 3 });
+  await page.mouse.move(from.x, from.y + 30, { steps: 3 });
+  await page.mouse.up();
+  await hasCurves(page, 3);
+  await page.keyboard.press('Control+z');
+  await hasCurves(page, 3);
+  await page.keyboard.press('Control+z');
+  await hasCurves(page, 2);
+});
+
+test('a key held down: one step of the history', async ({ quietPage: page }) => {
+  await openPage(page);
+  const { curves } = await stateOf(page);
+  await page.keyboard.press(']');
+  await page.keyboard.press('.');
+  await page.locator('canvas').focus();
+  // A key that goes down again without having come up repeats.
+  for (let i = 0; i < 30; i++) await page.keyboard.down('ArrowRight');
+  await page.keyboard.up('ArrowRight');
+  await page.keyboard.press('ArrowRight');
+  expect((await stateOf(page)).curves).not.toEqual(curves);
+  await page.keyboard.press('Control+z');
+  await page.keyboard.press('Control+z');
+  const state = await stateOf(page);
+  expect(state.curves).toEqual(curves);
+  expect(state.canUndo).toBe(false);
 });

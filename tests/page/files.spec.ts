@@ -23,15 +23,14 @@ test.beforeEach(async ({ page }) => {
 const openWith = (page: Page, name: string, text: string) =>
   page.getByLabel('File of loops').setInputFiles({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
 
-async function drop(page: Page, name: string, text: string): Promise<void> {
-  const transfer = await page.evaluateHandle(
-    ([fileName, content]) => {
-      const data = new DataTransfer();
-      data.items.add(new File([content], fileName));
-      return data;
-    },
-    [name, text] as const,
-  );
+const drop = (page: Page, name: string, text: string): Promise<void> => dropAll(page, [[name, text]]);
+
+async function dropAll(page: Page, files: readonly (readonly [name: string, text: string])[]): Promise<void> {
+  const transfer = await page.evaluateHandle((all) => {
+    const data = new DataTransfer();
+    for (const [name, text] of all) data.items.add(new File([text], name));
+    return data;
+  }, files);
   for (const type of ['dragenter', 'dragover', 'drop']) {
     await page.dispatchEvent('body', type, { dataTransfer: transfer });
   }
@@ -214,4 +213,45 @@ test('a heavy span: shows progress, is cancelled, and the next one works', async
   await page.getByRole('radio', { name: 'Delaunay' }).check();
   await openWith(page, 'box.curve', kTwoSquares);
   expectSpans((await spanned(page)).span, 2);
+});
+
+test('files that this mode does not open: said what they are and what opens them', async ({ quietPage: page }) => {
+  await openPage(page);
+  const { curves } = await stateOf(page);
+  const notice = page.locator('.toast');
+  for (const [name, text, words] of [
+    ['bunny.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n', 'it is a mesh (OBJ), which no mode opens. Film opens'],
+    ['part.curve', 'solid part\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n', 'it is a mesh (STL), which no mode opens'],
+    ['picture.curve', '\u0089PNG\r\n\u001a\n\0\0\0', 'it is in no format that is known here'],
+    ['letter.txt', 'Dear reader,', 'it is in no format that is known here'],
+  ]) {
+    await openWith(page, name, text);
+    await expect(notice).toContainText(`Could not open “${name}”: `);
+    await expect(notice).toContainText(words);
+  }
+  expect((await stateOf(page)).curves).toEqual(curves);
+  await openWith(page, 'squares.json', '{"type":"Polygon","coordinates":[[[0,0],[3,0],[3,3],[0,3],[0,0]]]}');
+  await expect(notice).toContainText('“squares.json” is a GeoJSON file: the mode Polygon opens it.');
+  await notice.getByRole('button', { name: 'Open in Polygon' }).click();
+  await page.waitForFunction(() => window.__polygons?.document.name === 'squares');
+  expect((await stateOf(page)).mode).toBe('polygon');
+});
+
+test('several files dropped: all are opened as one step, or named', async ({ quietPage: page }) => {
+  await openPage(page);
+  const { curves } = await stateOf(page);
+  const kite = '[[[0,0,5],[1,0,5.2],[1,1,5],[0,1,5.2]]]';
+  await dropAll(page, [
+    ['box.curve', kTwoSquares],
+    ['kite.json', kite],
+    ['bunny.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n'],
+    ['bad.curve', kTwoSquares.replace('2 2 0', '2 two 0')],
+  ]);
+  await hasCurves(page, 3);
+  await expect(page.locator('.toast')).toContainText('“box.curve” and “kite.json”: 3 curves');
+  await expect(page.locator('.toast')).toContainText('“bunny.obj”');
+  await expect(page.locator('.toast')).toContainText(/“bad\.curve”.*line 5/i);
+  expectSpans((await spanned(page)).span, 3);
+  await page.keyboard.press('Control+z');
+  expect((await stateOf(page)).curves).toEqual(curves);
 });

@@ -1,5 +1,5 @@
 import { gzipSync } from 'node:zlib';
-import '../../web/src/inspection.ts';
+import '../../web/src/modes/film/inspection.ts';
 import { expect, openPage, test } from './support.ts';
 
 test('first load: at most 300 KB gzipped, all from the page’s own server', async ({ quietPage: page, baseURL }) => {

@@ -1,4 +1,4 @@
-import '../../web/src/inspection.ts';
+import '../../web/src/modes/film/inspection.ts';
 import { expect, expectSpans, hasCurves, lookFrom, openPage, spanned, stateOf, test } from './support.ts';
 
 test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
@@ -115,4 +115,26 @@ test('polygons on a phone: all in view with the panel open, and as before once i
   await expect.poll(async () => Math.max(...(await places()).map((place) => place?.y ?? Infinity))).toBeLessThan(bottom);
   await handle.tap();
   await expect.poll(async () => Math.abs(((await places())[0]?.y ?? 0) - (before[0]?.y ?? 0))).toBeLessThan(0.01);
+});
+
+test('two fingers over polygons: enlarge by as much as they have moved apart', async ({ quietPage: page }) => {
+  await page.goto('?aa=0&dpr=1#polygon');
+  await page.waitForFunction(() => window.__polygons?.triangulated);
+  const client = await page.context().newCDPSession(page);
+  const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', apart: number) =>
+    client.send('Input.dispatchTouchEvent', {
+      type,
+      touchPoints: type === 'touchEnd' ? [] : [{ x: 195 - apart / 2, y: 400, id: 0 }, { x: 195 + apart / 2, y: 400, id: 1 }],
+    });
+  const unit = () =>
+    page.evaluate(() => {
+      const [a, b] = [window.__polygons?.whereIs([0, 0]), window.__polygons?.whereIs([1, 0])];
+      return (b?.x ?? 0) - (a?.x ?? 0);
+    });
+  const before = await unit();
+  await touch('touchStart', 100);
+  for (let apart = 110; apart <= 200; apart += 10) await touch('touchMove', apart);
+  await touch('touchEnd', 0);
+  await expect.poll(async () => (await unit()) / before).toBeGreaterThan(1.7);
+  expect((await unit()) / before).toBeLessThan(2.3);
 });

@@ -1,7 +1,7 @@
 // The mode of polygons: drawing, opening, both methods, strips, errors and repair, undo, flooding.
 import AxeBuilder from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
-import '../../web/src/inspection.ts';
+import '../../web/src/modes/polygon/inspection.ts';
 import { canvasBox as filmCanvas, expect, test } from './support.ts';
 
 interface State {
@@ -15,9 +15,9 @@ interface State {
   readonly chosen: { polygon: number; ring: number; vertex: number | null } | null;
 }
 
-/** The state of the mode, once its core has been loaded. */
+/** The state of the mode, once what is there has been triangulated. */
 async function stateOf(page: Page): Promise<State> {
-  await page.waitForFunction(() => window.__polygons?.triangulated);
+  await page.waitForFunction(() => window.__polygons?.isSettled);
   return page.evaluate((): State => {
     const now = window.__polygons;
     const found = now?.triangulated;
@@ -143,6 +143,41 @@ test('a vertex: is dragged, moved by keys, and deleted', async ({ quietPage: pag
   expect((await stateOf(page)).chosen).toBeNull();
 });
 
+test('a vertex on its way: its polygon is kept as a session, and is never half there', async ({ quietPage: page }) => {
+  await openMode(page);
+  await page.getByRole('button', { name: 'Plate with holes' }).click();
+  const before = await stateOf(page);
+  const at = (point: [number, number]) =>
+    page.evaluate((p) => {
+      if (!window.__polygons) throw new Error('The mode of polygons is not there.');
+      return window.__polygons.whereIs(p);
+    }, point);
+  const [corner, beside, across] = [await at([10, 0]), await at([10.5, -0.5]), await at([-3, 5.5])];
+  const now = () =>
+    page.evaluate(() => {
+      const found = window.__polygons?.triangulated;
+      const ring = window.__polygons?.document.polygons[0][0] ?? [];
+      return { corner: ring[1], count: found?.triangles.length ?? 0, errors: found?.errors.length ?? 0, isPassing: found?.isPassing ?? false };
+    });
+  await page.mouse.move(corner.x, corner.y);
+  await page.mouse.down();
+  await page.mouse.move(beside.x, beside.y, { steps: 5 });
+  await expect.poll(now).toMatchObject({ count: 3 * before.triangles, errors: 0, isPassing: true });
+  expect((await now()).corner[0]).toBeCloseTo(10.5, 6);
+  await page.mouse.move(across.x, across.y, { steps: 5 });
+  await expect.poll(now).toMatchObject({ count: 0, errors: 1, isPassing: true });
+  await expect(page.locator('.fault-label')).toContainText('The outer ring crosses or overlaps itself.');
+  await page.mouse.move(beside.x, beside.y, { steps: 5 });
+  await expect.poll(now).toMatchObject({ count: 3 * before.triangles, errors: 0, isPassing: true });
+  await page.mouse.up();
+  const after = await stateOf(page);
+  expect(after.errors).toEqual([]);
+  expect(after.triangles).toBe(before.triangles);
+  // The corner's triangle with its neighbours, (0, 0) and (10, 6), has grown from 30 to 34.
+  expect(after.area - before.area).toBeCloseTo(4, 3);
+  await expect(page.locator('.fault-label')).toHaveCount(0);
+});
+
 test('GeoJSON: is opened, all its polygons', async ({ quietPage: page }) => {
   await openMode(page);
   const ring = (x: number) => [[x, 0], [x + 3, 0], [x + 3, 3], [x, 3], [x, 0]];
@@ -201,8 +236,6 @@ test('the modes: the address tells which, and each keeps what it has', async ({ 
   await page.getByRole('button', { name: 'Film', exact: true }).click();
   await expect(page.getByText('Could not open “no.json”')).toBeHidden();
   await expect(page.getByRole('button', { name: 'Clear all curves' })).toBeVisible();
-  // Undo is the film's own here.
-  await page.keyboard.press('Control+z');
   await page.getByRole('button', { name: 'Polygon', exact: true }).click();
   expect((await stateOf(page)).polygons).toEqual([]);
 });

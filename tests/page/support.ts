@@ -1,6 +1,6 @@
 // What the page's tests share: opening the page, drawing strokes, reading its state.
 import { expect, test as base, type Page } from '@playwright/test';
-import type { Inspection } from '../../web/src/inspection.ts';
+import type { Inspection } from '../../web/src/modes/film/inspection.ts';
 
 /** A page whose console must stay free of errors. */
 export const test = base.extend<{ quietPage: Page }>({
@@ -56,6 +56,9 @@ export interface State {
   readonly canUndo: boolean;
   readonly canRedo: boolean;
   readonly selection: Inspection['selection'];
+  /** How many parts and vertices are chosen. */
+  readonly places: number;
+  readonly mode: string;
   readonly span: {
     readonly positions: number[];
     readonly triangles: number[];
@@ -75,11 +78,11 @@ export async function stateOf(page: Page): Promise<State> {
     const { solve, document } = now;
     return {
       phase: solve.phase,
-      message: solve.phase === 'failed' ? solve.message : '',
-      faults: solve.phase === 'failed' ? solve.faults.length : 0,
+      message: 'message' in solve ? solve.message : '',
+      faults: 'faults' in solve ? solve.faults.length : 0,
       curves: document.curves.map((curve) => curve.map((point) => [...point])),
       weights: document.settings.weights,
-      candidates: document.settings.candidates,
+      candidates: String(document.settings.candidates),
       tool: now.tool,
       notice: now.notice?.text ?? '',
       isStale: now.isStale,
@@ -87,6 +90,8 @@ export async function stateOf(page: Page): Promise<State> {
       canUndo: now.canUndo,
       canRedo: now.canRedo,
       selection: now.selection,
+      places: now.places.length,
+      mode: now.mode,
       span: span
         ? {
             positions: [...span.positions],

@@ -4,14 +4,14 @@ import {
   formatObj,
   load,
   parseLoops,
-  PolygonSession,
   type ErrorCode,
+  type PolygonSession,
   type spanLoops,
   type triangulateGeoJSON,
   type triangulatePolygon,
   type triangulatePolygons,
 } from 'soapfilm';
-import { createWorker, type Film } from 'soapfilm/worker';
+import { createWorker, type Film, type PolygonSessionHandle } from 'soapfilm/worker';
 
 function detached<T extends ArrayBufferView>(view: T): T {
   structuredClone(view.buffer, { transfer: [view.buffer as ArrayBuffer] });
@@ -282,13 +282,20 @@ export function functionSlots(functions: Functions, more: Readonly<Record<string
   ];
 }
 
-/** The places in the arguments of a session's methods, each called on a session of its own. */
-export function sessionSlots(): Slot[] {
-  const open = (polygon: unknown, options?: unknown) => new PolygonSession(polygon as never, options as never);
-  const on = (edit: (session: PolygonSession, value: never) => unknown) => (value: unknown) => {
-    const session = open([kRing]);
+type AnySession = PolygonSession | PolygonSessionHandle;
+
+/**
+ * The places in the arguments of a session's methods, each called on a session of its own; `more` are further
+ * options of `open`.
+ */
+export function sessionSlots(
+  open: (polygon: unknown, options?: unknown) => AnySession | Promise<AnySession>,
+  more: Readonly<Record<string, readonly Kind[]>> = {},
+): Slot[] {
+  const on = (edit: (session: AnySession, value: never) => unknown) => async (value: unknown) => {
+    const session = await open([kRing]);
     try {
-      return edit(session, value as never);
+      return await edit(session, value as never);
     } finally {
       session.dispose();
     }
@@ -304,7 +311,7 @@ export function sessionSlots(): Slot[] {
       ['polygon[0][3]', (v) => open([having(kRing, 3, v)]), [], ring],
       ['polygon.points', (v) => open({ ...kFlat, points: v }), ['missing']],
     ]),
-    ...optionSlots('PolygonSession', (options) => open([kRing], options), { maxMemoryBytes: kBytesLimit }),
+    ...optionSlots('PolygonSession', (options) => open([kRing], options), { maxMemoryBytes: kBytesLimit, ...more }),
     ...slots('PolygonSession.insert', codes, [
       ['before', on((session, v) => session.insert(v, p))],
       ['point', on((session, v) => session.insert(0, v)), [], point],

@@ -33,6 +33,10 @@ export const Fault = {
 
 const when = (fault: number, body: string): string =>
   `(if (i32.eq (local.get $fault) (i32.const ${fault})) (then ${body}))`;
+/** The faults that a session can be asked for by a number. */
+const misbehave = (x: string): string => `
+    (if (f64.eq ${x} (f64.const ${Fault.trap})) (then (unreachable)))
+    (if (f64.eq ${x} (f64.const ${Fault.hang})) (then (loop $forever (br $forever))))`;
 const where = (...values: number[]): string =>
   values
     .map((v, i) => `(i32.store offset=${4 * i} (local.get $where) (i32.const ${v}))`)
@@ -135,12 +139,12 @@ const kText = `(module
     ${handBack(kSpan)})
   (func (export "sf_session_open")
     (param $positions i32) (param i32 i32 i32 i32 f64) (param $where i32) (param $result i32) (result i32)
-    (if (f64.eq (f64.load (local.get $positions)) (f64.const ${Fault.trap})) (then (unreachable)))
+    ${misbehave('(f64.load (local.get $positions))')}
     (global.set $sessions (i32.add (global.get $sessions) (i32.const 1)))
     ${handBack(kOpened)})
   (func (export "sf_session_edit")
     (param i32 i32 i32) (param $x f64) (param f64) (param $where i32) (param $result i32) (result i32)
-    (if (f64.eq (local.get $x) (f64.const ${Fault.trap})) (then (unreachable)))
+    ${misbehave('(local.get $x)')}
     (i32.store (i32.const ${kEdit + 4}) (i32.const 1))
     ${handBack(kEdit)})
   (func (export "sf_session_read")

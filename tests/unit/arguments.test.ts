@@ -10,7 +10,7 @@ import {
   triangulatePolygons,
   type LoopsLike,
 } from 'soapfilm';
-import { createWorker, type Film } from 'soapfilm/worker';
+import { createWorker, type Film, type PolygonSessionHandle } from 'soapfilm/worker';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import {
   fileSlots,
@@ -88,16 +88,22 @@ const there: Pick<Film, keyof Functions> = {
   triangulateGeoJSON: (geojson, options) => film.triangulateGeoJSON(geojson, options),
 };
 
+const openHere = (polygon: unknown, options?: unknown): PolygonSession =>
+  new PolygonSession(polygon as never, options as never);
+const openThere = (polygon: unknown, options?: unknown): Promise<PolygonSessionHandle> =>
+  film.createPolygonSession(polygon as never, options as never);
+
 const titled = (slots: readonly Slot[]): [string, Slot][] => slots.map((slot) => [slot.title, slot]);
 
 describe('in this thread', () => {
   test.each(titled(functionSlots(here)))('%s: every kind of value', (_, slot) => tryAll(slot));
-  test.each(titled(sessionSlots()))('%s: every kind of value', (_, slot) => tryAll(slot));
+  test.each(titled(sessionSlots(openHere)))('%s: every kind of value', (_, slot) => tryAll(slot));
   test.each(titled(fileSlots()))('%s: every kind of value', (_, slot) => tryAll(slot));
 });
 
 describe('in a worker', () => {
-  const slots = functionSlots(there, { signal: ['missing'] });
+  const signal = { signal: ['missing'] } as const;
+  const slots = [...functionSlots(there, signal), ...sessionSlots(openThere, signal)];
   test.each(titled(slots))('%s: every kind of value', async (_, slot) => {
     await tryAll(slot);
     expect((await film.spanLoops([kLoop])).found).toBe(true);
@@ -156,6 +162,8 @@ const readers: [string, readonly string[], (options: object) => unknown][] = [
   ['film.spanLoops', [...kSpanNames, 'signal'], (options) => film.spanLoops([kLoop], options)],
   ['triangulatePolygon', kPolygonNames, (options) => triangulatePolygon([kSquare], options)],
   ['film.triangulatePolygons', [...kPolygonNames, 'skipInvalid', 'signal'], (options) => film.triangulatePolygons([[kSquare]], options)],
+  ['PolygonSession', ['maxMemoryBytes'], (options) => new PolygonSession([kSquare], options)],
+  ['film.createPolygonSession', ['maxMemoryBytes', 'signal'], (options) => film.createPolygonSession([kSquare], options)],
   ['load', ['parts', 'wasm', 'checks'], (options) => load(options)],
   ['createWorker', ['parts', 'wasm', 'checks', 'size'], (options) => createWorker(options)],
   ['formatObj', ['name', 'precision'], (options) => formatObj(kSurface, options)],

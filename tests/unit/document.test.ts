@@ -1,119 +1,93 @@
-import { beforeEach, describe, expect, test } from 'vitest';
-import {
-  apply,
-  fromLoopSet,
-  isReshaped,
-  kDefaultSettings,
-  kEmptyDocument,
-  presetOf,
-  spanOptions,
-  toLoopSet,
-  type Curve,
-} from '../../web/src/state/document.ts';
-import * as store from '../../web/src/state/store.ts';
+// The document: commands make the next one of it, and know nothing of what objects are made of.
+import { beforeAll, describe, expect, test } from 'vitest';
+import * as state from '../../web/src/state/document.ts';
+import { dots, dotsItem, type Dots } from '../support/dots_kind.js';
 
-const triangle: Curve = [[0, 0, 0], [3, 0, 0], [0, 4, 0]];
-const square: Curve = [[0, 0, 1], [2, 0, 1], [2, 2, 1], [0, 2, 1]];
-const open = (...curves: Curve[]) => {
-  store.dispatch({ type: 'open', name: 'Test', curves, settings: kDefaultSettings });
-};
+beforeAll(() => {
+  state.registerKind(dots);
+});
+
+const shapeOf = (group: state.Group, i: number) => group.items[i].shape as Dots;
+const place = (item: state.Item, part: number, handle: number | null = null): state.Place => ({ item: item.id, part, handle });
+
+const [a, b] = [dotsItem([1, 2, 3], [4]), dotsItem([5, 6])];
+const group: state.Group = { id: state.newId(), mode: 'test', name: 'Test', settings: { size: 1, weights: { area: 2 } }, items: [a, b] };
+const apply = (command: Omit<Extract<state.Command, { type: 'move' }>, 'group'> | object, to = group) =>
+  state.apply(to, { ...command, group: to.id } as state.Command);
 
 describe('apply', () => {
-  const document = { ...kEmptyDocument, curves: [triangle, square] };
-
-  test('a moved vertex: only its curve becomes another object', () => {
-    const next = apply(document, { type: 'move-vertex', curve: 1, vertex: 2, to: [5, 5, 5] });
-    expect(next.curves[0]).toBe(triangle);
-    expect(next.curves[1]).toEqual([[0, 0, 1], [2, 0, 1], [5, 5, 5], [0, 2, 1]]);
-    expect(square[2]).toEqual([2, 2, 1]);
-    expect(isReshaped(document, next)).toBe(true);
+  test('move: only the objects of the places become others', () => {
+    const next = apply({ type: 'move', places: [place(a, 0, 1), place(a, 1)], by: [10, 0, 0] });
+    expect(shapeOf(next, 0)).toEqual([[1, 12, 3], [14]]);
+    expect(next.items[1]).toBe(b);
+    expect(a.shape).toEqual([[1, 2, 3], [4]]);
+    expect(next.items[0].id).toBe(a.id);
   });
 
-  test('commands without effect: the same document', () => {
-    expect(apply(document, { type: 'delete-curve', curve: 7 })).toBe(document);
-    expect(apply(kEmptyDocument, { type: 'clear' })).toBe(kEmptyDocument);
-    const same = { ...kDefaultSettings, weights: { ...kDefaultSettings.weights } };
-    expect(apply(document, { type: 'set', settings: same })).toBe(document);
+  test('delete: handles, parts, and an object of which nothing is left', () => {
+    expect(shapeOf(apply({ type: 'delete', places: [place(a, 0, 0), place(a, 1)] }), 0)).toEqual([[2, 3]]);
+    expect(apply({ type: 'delete', places: [place(b, 0)] }).items).toEqual([a]);
   });
 
-  test('a deleted or added curve: not a reshaped document', () => {
-    expect(isReshaped(document, apply(document, { type: 'delete-curve', curve: 0 }))).toBe(false);
-    expect(isReshaped(document, apply(document, { type: 'add-curve', points: square }))).toBe(false);
+  test('add, reshape, clear, open', () => {
+    const c = dotsItem([7]);
+    expect(apply({ type: 'add', items: [c] }).items).toEqual([a, b, c]);
+    expect(apply({ type: 'reshape', item: b.id, shape: [[0]] }).items).toEqual([a, { ...b, shape: [[0]] }]);
+    expect(apply({ type: 'clear' })).toMatchObject({ name: state.kUntitled, items: [], settings: group.settings });
+    expect(apply({ type: 'open', name: 'Other', items: [c] })).toEqual({ ...group, name: 'Other', items: [c] });
+    expect(apply({ type: 'open', name: 'Other', items: [c], settings: { size: 2 } }).settings).toEqual({ size: 2 });
+  });
+
+  test('set: only the settings named', () => {
+    expect(apply({ type: 'set', settings: { size: 3 } }).settings).toEqual({ size: 3, weights: { area: 2 } });
+  });
+
+  test.each<[string, object]>([
+    ['nothing added', { type: 'add', items: [] }],
+    ['a move by nothing', { type: 'move', places: [place(a, 0)], by: [0, 0, 0] }],
+    ['a move of an object that is gone', { type: 'move', places: [{ item: -1, part: 0, handle: null }], by: [1, 0, 0] }],
+    ['nothing deleted', { type: 'delete', places: [] }],
+    ['a shape for an object that is gone', { type: 'reshape', item: -1, shape: [[1]] }],
+    ['equal settings', { type: 'set', settings: { size: 1, weights: { area: 2 } } }],
+  ])('%s: the same group', (_, command) => {
+    expect(apply(command)).toBe(group);
+  });
+
+  test('an empty group: cleared, it stays the same', () => {
+    const empty = { ...group, items: [] };
+    expect(apply({ type: 'clear' }, empty)).toBe(empty);
   });
 });
 
-test('toLoopSet, fromLoopSet: there and back', () => {
-  const set = toLoopSet([triangle, square]);
-  expect([...set.starts]).toEqual([0, 3, 7]);
-  expect(fromLoopSet(set)).toEqual([triangle, square]);
+test('isNumberedAlike: whether the same numbers stand for the same parts and handles', () => {
+  const alike = (command: Parameters<typeof apply>[0]) => state.isNumberedAlike(a.id, group, apply(command));
+  expect(alike({ type: 'move', places: [place(a, 0, 1)], by: [1, 0, 0] })).toBe(true);
+  expect(alike({ type: 'set', settings: { size: 2 } })).toBe(true);
+  expect(alike({ type: 'delete', places: [place(a, 0, 1)] })).toBe(false);
+  expect(alike({ type: 'clear' })).toBe(false);
+  expect(state.isNumberedAlike(-1, group, group)).toBe(false);
 });
 
-test('spanOptions: relative weights do not depend on the unit of length', () => {
-  const settings = { ...kDefaultSettings, weights: { area: 2, perimeter: 3, dihedral: 1 } };
-  const optionsOf = (s: number) =>
-    spanOptions({ name: '', settings, curves: [triangle.map(([x, y, z]) => [s * x, s * y, s * z] as const)] });
-  // The bounding box's diagonal is 5.
-  expect(optionsOf(1).weights).toEqual({ area: 2 / 25, perimeter: 3 / 5, dihedral: 1 });
-  expect(optionsOf(10).weights).toEqual({ area: 2 / 2500, perimeter: 3 / 50, dihedral: 1 });
+test('handlesAt: one, or all of a part', () => {
+  expect(state.handlesAt(dots as state.Kind<unknown>, a.shape, place(a, 1, 3))).toEqual([3]);
+  expect(state.handlesAt(dots as state.Kind<unknown>, a.shape, place(a, 0))).toEqual([0, 1, 2]);
 });
 
-test('presetOf: knows its presets, and that others are none', () => {
-  expect(presetOf(kDefaultSettings.weights)?.id).toBe('smooth');
-  expect(presetOf({ area: 0.5, perimeter: 0, dihedral: 1 })).toBeUndefined();
+test('isSame: plain data by what is in it', () => {
+  expect(state.isSame({ a: [1, { b: null }] }, { a: [1, { b: null }] })).toBe(true);
+  expect(state.isSame(NaN, NaN)).toBe(true);
+  for (const other of [{ a: 2 }, { b: 1 }, { a: 1, b: 1 }, null, 1, {}]) expect(state.isSame({ a: 1 }, other)).toBe(false);
 });
 
-describe('history', () => {
-  beforeEach(() => {
-    open(triangle, square);
-    store.forgetHistory();
-  });
-  const drag = (x: number, gesture: string | null = 'drag') => {
-    store.dispatch({ type: 'move-vertex', curve: 0, vertex: 0, to: [x, 0, 0] }, gesture);
-  };
-  const x = () => store.doc.value.curves[0][0][0];
+test('boxOfGroup: around all objects', () => {
+  expect(state.boxOfGroup(group)).toEqual({ low: [1, 0, 0], high: [6, 0, 0] });
+});
 
-  test('a gesture: one step, and the next gesture another', () => {
-    [1, 2, 3].forEach((to) => { drag(to, 'first'); });
-    store.endGesture();
-    [4, 5].forEach((to) => { drag(to, 'first'); });
-    expect(x()).toBe(5);
-    store.undo();
-    expect(x()).toBe(3);
-    store.undo();
-    expect([x(), store.canUndo.value]).toEqual([0, false]);
-    store.redo();
-    store.redo();
-    expect([x(), store.canRedo.value]).toEqual([5, false]);
-  });
+test('kindOf: a kind that nobody made known is an error in words', () => {
+  expect(() => state.kindOf({ ...a, kind: 'ghost' })).toThrow('no kind of object “ghost”');
+});
 
-  test('a cancelled gesture: as if it had not been', () => {
-    [1, 2, 3].forEach((to) => { drag(to); });
-    store.cancelGesture();
-    expect([x(), store.canUndo.value, store.canRedo.value]).toEqual([0, false, false]);
-    store.cancelGesture();
-    expect(x()).toBe(0);
-  });
-
-  test('a change after undo: ends the redo', () => {
-    drag(1, null);
-    store.undo();
-    drag(2, null);
-    expect(store.canRedo.value).toBe(false);
-  });
-
-  test('many steps: the oldest are forgotten, none of the latest 200', () => {
-    for (let i = 1; i <= 250; i++) drag(i, null);
-    for (let i = 0; i < 200; i++) store.undo();
-    expect([x(), store.canUndo.value]).toEqual([50, false]);
-  });
-
-  test('a selection whose vertex is gone: dropped', () => {
-    store.selection.value = { curve: 1, vertex: 3 };
-    store.dispatch({ type: 'delete-curve', curve: 0 });
-    expect(store.selection.value).toBeNull();
-    store.undo();
-    store.selection.value = { curve: 1, vertex: 3 };
-    store.dispatch({ type: 'move-vertex', curve: 1, vertex: 3, to: [9, 9, 9] });
-    expect(store.selection.value).toEqual({ curve: 1, vertex: 3 });
-  });
+test('reserveIds: new ids are none of those', () => {
+  state.reserveIds({ groups: [{ ...group, id: 5000, items: [{ ...a, id: 7000 }] }] });
+  expect(state.newId()).toBe(7001);
 });

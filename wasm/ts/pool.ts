@@ -1,9 +1,9 @@
 // Threads, the calls that wait for them, and what happens to both when a call ends early.
 import { SoapfilmError } from './errors.js';
-import type { Modules } from './compile.js';
+import type { Launcher } from './launch.js';
 import { buffersOf, copyOf, unpackError, type Calls, type Reply, type Request } from './protocol.js';
 import { report } from './report.js';
-import { startThread, type Thread } from './thread.js';
+import type { Thread } from './thread.js';
 import type { ProgressListener } from './types.js';
 
 /** The listeners of a call, and what may end it early. */
@@ -34,18 +34,19 @@ interface Member {
 }
 
 export class Pool {
-  readonly #modules: Modules;
-  readonly #size: number;
+  readonly launcher: Launcher;
+  /** How many threads there may be for calls, and again for sessions. */
+  readonly size: number;
+  /** What ends with the pool. */
+  readonly guests = new Set<{ readonly dispose: () => void }>();
   readonly #members = new Set<Member>();
   readonly #queue: Job[] = [];
   #starting = 0;
-  /** The thread's script as text, once its file has failed. */
-  #script: string | undefined;
   #disposed = false;
 
-  constructor(modules: Modules, size: number) {
-    this.#modules = modules;
-    this.#size = size;
+  constructor(launcher: Launcher, size: number) {
+    this.launcher = launcher;
+    this.size = size;
   }
 
   /**
@@ -101,6 +102,7 @@ export class Pool {
     const jobs = [...this.#members].flatMap(({ job }) => job ?? []).concat(this.#queue.splice(0));
     for (const member of [...this.#members]) this.#end(member);
     for (const job of jobs) job.reject(disposed());
+    for (const guest of this.guests) guest.dispose();
   }
 
   /** Hands waiting calls to free threads, and starts threads for the rest. */
@@ -109,7 +111,7 @@ export class Pool {
       if (this.#queue.length === 0) return;
       if (!member.job) this.#assign(member, this.#queue.shift() as Job);
     }
-    while (this.#starting < this.#queue.length && this.#members.size + this.#starting < this.#size) {
+    while (this.#starting < this.#queue.length && this.#members.size + this.#starting < this.size) {
       this.start().catch(() => undefined);
     }
   }
@@ -159,15 +161,22 @@ export class Pool {
    */
   async start(): Promise<void> {
     this.#starting++;
-    let member: Member;
+    let member: Member | undefined = undefined;
+    let thread: Thread;
     try {
-      member = await this.#launchSomehow();
-    } catch (cause) {
-      const text = `No worker can be started: ${String(cause)}`;
-      const error =
-        cause instanceof SoapfilmError
-          ? cause
-          : new SoapfilmError('load-failed', text, undefined, { cause });
+      thread = await this.launcher.launch({
+        hear: (reply) => {
+          if (member?.job) this.#hear(member, member.job, reply);
+        },
+        failed: (cause) => {
+          if (!member) return;
+          const { job } = member;
+          this.#end(member);
+          job?.reject(new SoapfilmError('crashed', `The worker failed: ${cause.message}`, undefined, { cause }));
+          this.#pump();
+        },
+      });
+    } catch (error) {
       if (this.#members.size === 0 && this.#starting === 1) {
         for (const job of this.#queue.splice(0)) job.reject(error);
       }
@@ -176,57 +185,12 @@ export class Pool {
       this.#starting--;
     }
     if (this.#disposed) {
-      member.thread.terminate();
+      thread.terminate();
       throw disposed();
     }
+    member = { thread, job: undefined };
     this.#members.add(member);
     this.#release(member);
-  }
-
-  /** Launches a thread from its file, or if that fails, from the copy within the library. */
-  async #launchSomehow(): Promise<Member> {
-    if (this.#script !== undefined) return this.#launch(this.#script);
-    try {
-      return await this.#launch();
-    } catch (cause) {
-      if (cause instanceof SoapfilmError) throw cause;
-      // Bundlers may lose the file, and browsers refuse one from another origin.
-      const { default: script } = await import('./worker_thread_inline.js').catch(() => {
-        throw cause;
-      });
-      const member = await this.#launch(script);
-      this.#script = script;
-      return member;
-    }
-  }
-
-  /** Starts a thread and waits until it is ready. */
-  #launch(script?: string): Promise<Member> {
-    return new Promise((resolve, reject) => {
-      const thread = startThread(
-        {
-          message: (data) => {
-            const reply = data as Reply;
-            if (reply.kind === 'ready') resolve(member);
-            else if (member.job) this.#hear(member, member.job, reply);
-            else if (reply.kind === 'error') reject(unpackError(reply.error));
-          },
-          failed: (cause) => {
-            reject(cause);
-            const { job } = member;
-            this.#end(member);
-            job?.reject(
-              new SoapfilmError('crashed', `The worker failed: ${cause.message}`, undefined, { cause }),
-            );
-            this.#pump();
-          },
-        },
-        script,
-      );
-      const member: Member = { thread, job: undefined };
-      const request: Request = { kind: 'start', modules: this.#modules };
-      thread.post(request, []);
-    });
   }
 
   /** Calls a listener. If it throws, the call ends, unless its result is already on the way here. */
@@ -264,8 +228,8 @@ export class Pool {
   }
 }
 
-const disposed = (): SoapfilmError =>
+export const disposed = (): SoapfilmError =>
   new SoapfilmError('disposed', 'The worker pool has been disposed of');
 
-const cancelled = (signal: AbortSignal): SoapfilmError =>
+export const cancelled = (signal: AbortSignal): SoapfilmError =>
   new SoapfilmError('cancelled', 'The work was cancelled', undefined, { cause: signal.reason });

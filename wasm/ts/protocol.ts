@@ -1,6 +1,7 @@
 // The messages between the pool and its threads.
 import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
 import type { Modules } from './compile.js';
+import type { PolygonEditor } from './compute_edits.js';
 import type { FlatPolygons } from './flat_polygons.js';
 import type { computeSpan } from './compute_span.js';
 import type { PolygonsOptions, PolygonTriangulation, PolygonsTriangulation } from './types.js';
@@ -15,8 +16,34 @@ export interface Calls {
   readonly triangulatePolygons: (polygons: FlatPolygons, options: PolygonsOptions) => PolygonsTriangulation;
 }
 
-/** To a thread: first the core's parts, then one call at a time. */
+/**
+ * The kinds of session that a thread can be asked for. Each is made of a checked input and the session's id. Its
+ * methods take and return plain data, and errors only in a list of `errors`.
+ */
+export interface SessionKinds {
+  readonly polygon: typeof PolygonEditor;
+}
+
+/** Something that stays in a thread, and is freed there by `dispose`. */
+export interface Resident {
+  dispose(): void;
+}
+
+/** Opens a session, or calls a method of one that is open. Requests are answered in order. */
+export interface SessionRequest {
+  readonly kind: 'session';
+  /** Comes back with the answer. */
+  readonly call: number;
+  readonly id: number;
+  /** The kind of session to open; `input` is then the input alone. */
+  readonly opens?: keyof SessionKinds | undefined;
+  readonly method?: string | undefined;
+  readonly input: readonly unknown[];
+}
+
+/** To a thread: first the core's parts, then one call at a time, or any number of requests about sessions. */
 export type Request =
+  | SessionRequest
   | { readonly kind: 'start'; readonly modules: Modules }
   | {
       readonly kind: 'call';
@@ -28,13 +55,16 @@ export type Request =
       readonly results: boolean;
     };
 
-/** From a thread: `ready` once; for each call any number of `progress` and `best`, then the end. */
+/**
+ * From a thread: `ready` once; for each call any number of `progress` and `best`, then the end; for each request
+ * about sessions the end, with its number.
+ */
 export type Reply =
   | { readonly kind: 'ready' }
   | { readonly kind: 'progress'; readonly values: readonly [number, number, number] }
   | { readonly kind: 'best'; readonly value: unknown }
-  | { readonly kind: 'done'; readonly value: unknown }
-  | { readonly kind: 'error'; readonly error: PlainError };
+  | { readonly kind: 'done'; readonly value: unknown; readonly call?: number | undefined }
+  | { readonly kind: 'error'; readonly error: PlainError; readonly call?: number | undefined };
 
 /** A SoapfilmError as plain data: structured cloning loses classes. */
 export interface PlainError {

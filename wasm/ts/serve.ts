@@ -1,7 +1,18 @@
-// The thread's side of the pool: runs the calls that it receives, one after the other.
+// The thread's side of the pool: runs the calls that it receives, one after the other, and keeps sessions.
+import { PolygonEditor } from './compute_edits.js';
 import { computePolygons, triangulationOfOne } from './compute_polygons.js';
 import { computeSpan } from './compute_span.js';
-import { buffersOf, packError, packErrors, type Calls, type Reply, type Request } from './protocol.js';
+import {
+  buffersOf,
+  packError,
+  packErrors,
+  type Calls,
+  type Reply,
+  type Request,
+  type Resident,
+  type SessionKinds,
+  type SessionRequest,
+} from './protocol.js';
 import { startCore } from './runtime.js';
 import type { Part, PolygonOptions, SpanOptions } from './types.js';
 
@@ -18,6 +29,21 @@ const calls: Calls = {
   triangulatePolygons: (polygons, options) => computePolygons(polygons, options, true),
 };
 
+const kinds: SessionKinds = { polygon: PolygonEditor };
+
+const sessions = new Map<number, Resident>();
+
+function useSession({ id, opens, method, input }: SessionRequest): unknown {
+  if (opens) {
+    sessions.set(id, new kinds[opens](input[0] as never, id));
+    return;
+  }
+  // None if it could not be opened.
+  const session = sessions.get(id) as unknown as Record<string, (...args: unknown[]) => unknown> | undefined;
+  if (method === 'dispose') sessions.delete(id);
+  return session?.[method as string](...input);
+}
+
 /** Answers the requests that come through `port`, as long as the thread lives. */
 export function serve(port: Port): void {
   const reply = (message: Reply, transfer: ArrayBuffer[] = []): void => {
@@ -28,6 +54,11 @@ export function serve(port: Port): void {
       const parts = Object.entries(request.modules) as [Part, WebAssembly.Module][];
       await Promise.all(parts.map(([part, module]) => startCore(part, module)));
       reply({ kind: 'ready' });
+      return;
+    }
+    if (request.kind === 'session') {
+      const value = packErrors(useSession(request) ?? {});
+      reply({ kind: 'done', value, call: request.call }, buffersOf(value));
       return;
     }
     const [input, options] = request.input;
@@ -51,7 +82,7 @@ export function serve(port: Port): void {
   };
   port.onmessage = ({ data }) => {
     answer(data as Request).catch((error: unknown) => {
-      reply({ kind: 'error', error: packError(error) });
+      reply({ kind: 'error', error: packError(error), call: (data as SessionRequest).call });
     });
   };
 }

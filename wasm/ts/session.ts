@@ -3,6 +3,7 @@
 import type { ArrayReader } from './border.js';
 import { SoapfilmError } from './errors.js';
 import { callCore, Home, start, type CoreArgument, type Watch } from './runtime.js';
+import { lostWith, newSessionId, sessionDisposed } from './session_id.js';
 import type { Part } from './types.js';
 
 /**
@@ -46,18 +47,17 @@ const forgotten = new FinalizationRegistry<Session>((session) => {
   }
 });
 
-let count = 0;
-
 /** A session as the core knows it: a number in one instance. */
 export class Session {
-  /** The number by which errors name it: 1 for the first in this thread. */
-  readonly id = ++count;
+  /** The number by which errors name it. */
+  readonly id: number;
   readonly #room: Room;
   readonly #close: string;
   #number: number | undefined;
 
   /** @param close the export that ends a session, given its number */
-  constructor(part: Part, close: string) {
+  constructor(part: Part, close: string, id = newSessionId()) {
+    this.id = id;
     this.#close = close;
     this.#room = roomFor(part);
     this.#room.tenants.add(this.id);
@@ -92,9 +92,7 @@ export class Session {
    * @throws SoapfilmError `disposed`; `crashed` if it is lost
    */
   get number(): number {
-    if (this.#number === undefined) {
-      throw new SoapfilmError('disposed', `Session ${this.id} is disposed of`);
-    }
+    if (this.#number === undefined) throw sessionDisposed(this.id);
     const { lost, culprit } = this.#room;
     if (!lost) return this.#number;
     const whose = culprit === this.id ? 'it' : `session ${String(culprit)}, which shared its memory,`;
@@ -138,8 +136,7 @@ export class Session {
   #lose({ code, message, cause }: SoapfilmError): SoapfilmError {
     roomsOf[this.#room.part].delete(this.#room);
     this.#room.culprit ??= this.id;
-    const others = [...this.#room.tenants].filter((id) => id !== this.id);
-    const more = others.length > 0 ? `, and what shared its memory: session ${others.join(', ')}` : '';
-    return new SoapfilmError(code, `${message}; session ${this.id} is lost${more}`, undefined, { cause });
+    const lost = lostWith(this.id, this.#room.tenants, 'memory');
+    return new SoapfilmError(code, message + lost, undefined, { cause });
   }
 }

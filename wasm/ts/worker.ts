@@ -5,6 +5,7 @@ import { compile } from './compile.js';
 import { kDispose } from './dispose.js';
 import { notLoaded } from './errors.js';
 import { flattenLoops } from './flatten.js';
+import { Launcher } from './launch.js';
 import { kLoadOptions, kSpanOptions, signalOf } from './options.js';
 import { Pool } from './pool.js';
 import { tellEnd } from './report.js';
@@ -15,10 +16,13 @@ import type {
   LoadOptions,
   LoopsLike,
   NoSpan,
+  Point2Like,
+  PolygonEdit,
   PolygonLike,
   PolygonOptions,
   PolygonsLike,
   PolygonsOptions,
+  PolygonState,
   PolygonsTriangulation,
   PolygonTriangulation,
   Span,
@@ -28,7 +32,11 @@ import type {
 export { SoapfilmError } from './errors.js';
 
 export interface WorkerOptions extends LoadOptions {
-  /** Most threads at once. One starts with the pool, others when there is work for them. Default 1. */
+  /**
+   * Most threads at once for calls. One starts with the pool, others when there is work for them. Default 1.
+   * Sessions have threads of their own, up to as many again: no call that takes long holds up an edit, and none
+   * that is cancelled costs a session. These start when they are needed, and end when they have no session.
+   */
   readonly size?: number;
 }
 
@@ -63,7 +71,47 @@ export interface Film {
     geojson: GeoJSONLike,
     options?: PolygonsOptions & CallOptions,
   ): Promise<GeoJSONTriangulation>;
-  /** Ends all threads. Calls under way and later calls fail with `disposed`. */
+  /**
+   * Opens a session on a polygon in a thread, the one with the fewest sessions, and keeps it there. `signal` ends
+   * the opening only.
+   */
+  createPolygonSession(
+    polygon: PolygonLike,
+    options?: Pick<PolygonOptions, 'maxMemoryBytes'> & CallOptions,
+  ): Promise<PolygonSessionHandle>;
+  /** Ends all threads. Calls under way and later calls fail with `disposed`, and so do those of sessions. */
+  dispose(): void;
+  [Symbol.dispose](): void;
+}
+
+/**
+ * A `PolygonSession` of the package's main entry that lives in a thread. What it is asked is done there in the
+ * order of the calls; you need not wait for one to make the next. Arguments are read when the call is made. Errors
+ * are those of `PolygonSession`: a refused edit rejects, and the edits after it are done.
+ *
+ * A session uses little of a thread, and many share one. Each is done with before the next, so an edit waits if a
+ * large polygon is just being opened in the same thread. If a thread fails, all its sessions are lost, and reject
+ * with `crashed`; sessions in other threads live on.
+ *
+ * A session holds memory of its thread. `dispose` frees it; a session that is no longer referred to is freed in
+ * time. Open sessions keep Node's process alive only while something is under way.
+ */
+export interface PolygonSessionHandle {
+  /** The number by which errors name the session: 1 for the first that is opened in this thread or from it. */
+  readonly id: number;
+  /** `[3m]` the triangles, counter-clockwise, once all edits before are done. Asked for at each reading. */
+  readonly triangles: Promise<Uint32Array>;
+  /** Inserts a vertex into a ring, between `before` and the next one. */
+  insert(before: number, point: Point2Like): Promise<PolygonEdit>;
+  /** Inserts an isolated vertex inside the polygon. */
+  insertPoint(point: Point2Like): Promise<PolygonEdit>;
+  /** Deletes a vertex. A vertex inserted later may get its number. A ring must keep 3 vertices. */
+  delete(vertex: number): Promise<PolygonEdit>;
+  /** Moves a vertex of a ring, or an isolated one. */
+  move(vertex: number, point: Point2Like): Promise<PolygonEdit>;
+  /** All that the session holds besides the triangles, in time proportional to the polygon's size. */
+  read(): Promise<PolygonState>;
+  /** Ends the session. Calls before still get their answers; later ones fail with `disposed`. */
   dispose(): void;
   [Symbol.dispose](): void;
 }
@@ -78,7 +126,7 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
     throw mustBe('bad-option', 'size', 'a whole number of threads, at least 1', size);
   }
   const modules = await compile(given as LoadOptions);
-  const pool = new Pool(modules, size);
+  const pool = new Pool(new Launcher(modules), size);
   await pool.start();
   const dispose = (): void => {
     pool.dispose();
@@ -86,7 +134,12 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
   // Who asks for loops alone does not fetch what is for polygons.
   const polygons = modules.polygons
     ? (await import('./worker_polygons.js')).polygonCalls(pool)
-    : { triangulatePolygon: missing, triangulatePolygons: missing, triangulateGeoJSON: missing };
+    : {
+        triangulatePolygon: missing,
+        triangulatePolygons: missing,
+        triangulateGeoJSON: missing,
+        createPolygonSession: missing,
+      };
   return {
     async spanLoops(loops, options = {}) {
       const input = flattenLoops(loops, true);

@@ -1,18 +1,35 @@
 // The functions for polygons of `soapfilm/worker`.
 import { optionsOf } from './check.js';
+import type { PolygonEditor } from './compute_edits.js';
+import { kDispose } from './dispose.js';
 import type { FlatPolygons } from './flat_polygons.js';
 import { flattenGeoJSON } from './geojson.js';
 import { kPolygonOptions, kPolygonsOptions, signalOf } from './options.js';
+import { checkEdit, editedPolygonOf, editOf, kNoPoint, kSessionOptions, type SessionOptions } from './polygon_edits.js';
 import { flattenBatch, flattenPolygon, polygonOptionsOf } from './polygon_input.js';
 import type { Pool } from './pool.js';
 import { unpackErrors } from './protocol.js';
-import type { PolygonOptions, PolygonsOptions, PolygonsTriangulation, PolygonTriangulation } from './types.js';
-import type { CallOptions, Film } from './worker.js';
+import { sessionThreadsOf, type RemoteSession } from './session_threads.js';
+import type {
+  Point2Like,
+  PolygonEdit,
+  PolygonOptions,
+  PolygonsOptions,
+  PolygonState,
+  PolygonsTriangulation,
+  PolygonTriangulation,
+} from './types.js';
+import type { CallOptions, Film, PolygonSessionHandle } from './worker.js';
+
+type PolygonCalls =
+  | 'triangulatePolygon'
+  | 'triangulatePolygons'
+  | 'triangulateGeoJSON'
+  | 'createPolygonSession';
 
 /** Calls that check and flatten here, and have the pool compute. */
-export function polygonCalls(
-  pool: Pool,
-): Pick<Film, 'triangulatePolygon' | 'triangulatePolygons' | 'triangulateGeoJSON'> {
+export function polygonCalls(pool: Pool): Pick<Film, PolygonCalls> {
+  const sessions = sessionThreadsOf(pool);
   const several = async <T extends PolygonsTriangulation>(
     flat: FlatPolygons,
     options: PolygonsOptions & CallOptions = {},
@@ -36,5 +53,64 @@ export function polygonCalls(
       const positions = flat.positions.slice();
       return { ...(await several(flat, options)), positions, featureStarts };
     },
+    async createPolygonSession(polygon, options = {}) {
+      const { signal, ...given } = optionsOf<SessionOptions & CallOptions>(options, { ...kSessionOptions, signal: true });
+      const abort = signalOf(signal);
+      const session = await sessions.open('polygon', editedPolygonOf(polygon, given, true), abort);
+      const handle = new PolygonHandle(session);
+      sessions.freeWith(handle, session);
+      return handle;
+    },
   };
+}
+
+/** A PolygonSession whose core's half is in a thread. */
+class PolygonHandle implements PolygonSessionHandle {
+  readonly #session: RemoteSession<PolygonEditor>;
+
+  constructor(session: RemoteSession<PolygonEditor>) {
+    this.#session = session;
+  }
+
+  get id(): number {
+    return this.#session.id;
+  }
+
+  get triangles(): Promise<Uint32Array> {
+    return this.#session.call('triangles');
+  }
+
+  insert(before: number, point: Point2Like): Promise<PolygonEdit> {
+    return this.#edit('insert', before, point);
+  }
+
+  insertPoint(point: Point2Like): Promise<PolygonEdit> {
+    return this.#edit('insert-isolated', 0, point);
+  }
+
+  delete(vertex: number): Promise<PolygonEdit> {
+    return this.#edit('delete', vertex, kNoPoint);
+  }
+
+  move(vertex: number, point: Point2Like): Promise<PolygonEdit> {
+    return this.#edit('move', vertex, point);
+  }
+
+  read(): Promise<PolygonState> {
+    return this.#session.call('read');
+  }
+
+  dispose(): void {
+    this.#session.dispose();
+  }
+
+  [kDispose](): void {
+    this.dispose();
+  }
+
+  async #edit(...args: Parameters<typeof checkEdit>): Promise<PolygonEdit> {
+    this.#session.alive();
+    const checked = checkEdit(...args);
+    return editOf(unpackErrors(await this.#session.call('edit', ...checked)), checked);
+  }
 }

@@ -1,16 +1,14 @@
-// Puts the page together: the scene, the panels, the keys, and the first example.
+// Puts the page together: the scene, the tools, the keys, the panels, and the mode that the address asks for.
 import { render } from 'preact';
-import { attachPointer } from './scene/pointer.ts';
+import { computed } from '@preact/signals';
+import { actionsOf } from './app/core_actions.ts';
+import { App } from './app/app.tsx';
+import { attachKeyboard } from './app/keyboard.ts';
+import { current, startRooms } from './app/rooms.ts';
+import { kModes } from './modes/index.ts';
 import { Stage } from './scene/stage.ts';
-import { openExample } from './state/files.ts';
-import { kGallery } from './state/gallery.ts';
-import { followDocument } from './state/solving.ts';
-import { forgetHistory } from './state/store.ts';
-import { exposeForInspection } from './inspection.ts';
-import { actOn } from './ui/actions.ts';
-import { App } from './ui/app.tsx';
-import { attachKeys } from './ui/keys.ts';
-import { followMode } from './ui/modes.tsx';
+import { Tools } from './scene/tools.ts';
+import { keepDrafts, restoreDraft } from './state/drafts.ts';
 
 /** `?aa=0` turns antialiasing off and `?dpr=1` fixes the pixel ratio: both for slow renderers. */
 const query = new URLSearchParams(location.search);
@@ -21,29 +19,40 @@ scene.className = 'scene';
 const canvas = document.createElement('canvas');
 canvas.tabIndex = 0;
 canvas.setAttribute('role', 'application');
-canvas.setAttribute('aria-label', 'Scene: curves and surface. Arrows turn the view; comma and full stop choose a vertex.');
 scene.append(canvas);
+current.subscribe((now) => {
+  canvas.setAttribute('aria-label', now?.room.sceneLabel ?? 'Scene');
+});
 
 const root = document.getElementById('app');
 if (root === null) throw new Error('The page has no #app.');
 
-try {
-  const stage = new Stage(scene, canvas, {
-    antialias: query.get('aa') !== '0',
-    ...(ratio > 0 && { pixelRatio: ratio }),
-  });
-  actOn(stage);
-  render(<App stage={stage} scene={scene} />, root);
-  attachKeys(stage, attachPointer(stage));
-  exposeForInspection(stage);
-  openExample(kGallery[0], kGallery[0].variants?.values[0], true);
-  forgetHistory();
-  followDocument();
-  followMode();
-} catch (error) {
-  root.innerHTML = '';
+/** Null without WebGL 2. */
+function makeStage(): Stage | null {
+  try {
+    return new Stage(scene, canvas, {
+      antialias: query.get('aa') !== '0',
+      ...(ratio > 0 && { pixelRatio: ratio }),
+    });
+  } catch (error) {
+    console.warn(error);
+    return null;
+  }
+}
+
+const stage = makeStage();
+if (stage === null) {
   const message = document.createElement('p');
   message.className = 'fatal';
-  message.textContent = `soapfilm could not start. It needs a browser with WebGL 2. (${String(error)})`;
+  message.textContent = 'soapfilm could not start. It needs a browser with WebGL 2.';
   root.append(message);
+} else {
+  const room = () => current.peek()?.room;
+  const tools = new Tools(stage, () => room()?.pen ?? null, () => room()?.pressed?.());
+  const actions = computed(() => actionsOf(stage, tools, current.value?.room));
+  render(<App modes={kModes} stage={stage} scene={scene} actions={() => actions.value} />, root);
+  attachKeyboard({ canvas, actions: () => actions.peek(), isBusy: () => tools.isBusy });
+  await restoreDraft();
+  await startRooms({ modes: kModes, stage, leave: () => void tools.cancel() });
+  keepDrafts();
 }

@@ -12,6 +12,7 @@ import {
 } from 'three';
 import type { Frame, PlaneKind } from '../shapes/plane.ts';
 import { toScene, type Placement } from './placement.ts';
+import type { GridColors } from './theme.ts';
 
 const kVertexShader = /* glsl */ `
 uniform float uExtent;
@@ -48,11 +49,6 @@ void main() {
   if (gl_FragColor.a < 0.004) discard;
   #include <colorspace_fragment>
 }`;
-
-export interface GridColors {
-  readonly line: string;
-  readonly axes: readonly [x: string, y: string, z: string];
-}
 
 const kAxisOf: Record<Exclude<PlaneKind, 'view'>, readonly [u: number, v: number]> = {
   xy: [0, 1],

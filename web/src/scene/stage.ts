@@ -1,227 +1,131 @@
-// The stage draws the state: it listens to the signals and moves the objects of the view.
-import { computed, effect } from '@preact/signals';
-import { Vector3 } from 'three';
+// The stage: one view for all modes. It shows the scene of the mode that the page is in, the plane that is drawn in,
+// and what the pen draws.
+import { effect, signal } from '@preact/signals';
 import { coordinatePlane, viewPlane, type Frame } from '../shapes/plane.ts';
-import { boundsOf, type Point } from '../shapes/vec.ts';
-import type { Curve } from '../state/document.ts';
-import { isStale, solve, surface, type Surface } from '../state/solving.ts';
-import { doc, drawing, framing, hover, isGrowing, selection, shown, tool, type Drawing, type Selection } from '../state/store.ts';
-import { CurvesLayer, PenLayer } from './curves.ts';
+import type { Point } from '../shapes/vec.ts';
+import { boxOfGroup } from '../state/document.ts';
+import { drawingPlane, framing, shown, tool, type DrawingPlane, type Tool } from '../state/store.ts';
 import { PlaneGrid } from './grid.ts';
-import { kIdentity, placementFor } from './placement.ts';
-import { SurfaceMesh } from './surface.ts';
-import { readTheme, type Theme } from './theme.ts';
-import { prefersReducedMotion, View, type ViewOptions } from './view.ts';
-
-const kGrowMs = 1400;
-const kEmptyRadius = 1.5;
+import { kIdentity, type Placement } from './placement.ts';
+import { ModeScene, type ModeSceneOptions } from './mode_scene.ts';
+import { PenLayer } from './pen.ts';
+import { readTheme } from './theme.ts';
+import { View, type ViewOptions } from './view.ts';
 
 export class Stage {
   readonly view: View;
-  readonly pen = new PenLayer();
-  /** Computed, so that whatever draws the document finds the placement that goes with it. */
-  readonly placement = computed(() => {
-    this.placed = placementFor(boundsOf(doc.value.curves), this.placed);
-    return this.placed;
-  });
-  theme: Theme;
-  /** The surface, unless it is stale and of curves that lie elsewhere by far. */
-  private readonly drawn = computed(() => {
-    const present = this.placement.value;
-    const bounds = surface.value && boundsOf(surface.value.of.curves);
-    return bounds && placementFor(bounds, present) === present ? surface.value : null;
-  });
-  private readonly surfaceMesh = new SurfaceMesh();
-  private readonly curves = new CurvesLayer();
+  readonly theme = signal(readTheme());
+  readonly current = signal<ModeScene | null>(null);
+  private readonly pen = new PenLayer();
   private readonly grid = new PlaneGrid();
-  private placed = kIdentity;
-  private viewPlaced = kIdentity;
-  private growSince = 0;
+  private readonly scenes = new Map<string, ModeScene>();
 
   constructor(container: HTMLElement, canvas: HTMLCanvasElement, options: ViewOptions) {
     this.view = new View(container, canvas, options);
-    this.view.scene.add(this.grid.mesh, this.surfaceMesh.mesh, this.curves.group, this.pen.group);
-    this.theme = readTheme();
-    this.applyTheme();
+    this.view.scene.add(this.grid.mesh, this.pen.object);
     window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
-      this.applyTheme();
+      this.theme.value = readTheme();
+    });
+    effect(() => {
+      const theme = this.theme.value;
+      this.view.setBackground(theme.background);
+      this.grid.setColors(theme.grid);
     });
     this.view.onCamera(() => {
-      if (drawing.peek().plane === 'view') this.replaceGrid();
+      const plane = drawingPlane.peek();
+      const scene = this.current.peek();
+      // The plane that faces the viewer, and the grid's size, go with the eye.
+      this.placeGrid(plane, shown.peek().grid, this.isDrawing(tool.peek()), scene, scene?.placement.peek() ?? kIdentity);
     });
     effect(() => {
-      this.followSize(doc.value.curves);
+      const scene = this.current.value;
+      // Read here, so that another placement places the grid anew.
+      const placement = scene?.placement.value ?? kIdentity;
+      this.placeGrid(drawingPlane.value, shown.value.grid, this.isDrawing(tool.value), scene, placement);
     });
     effect(() => {
-      if (this.drawn.value) this.surfaceMesh.setSpan(this.drawn.value.span, this.placement.value);
+      const scene = this.current.value;
+      const isDrawing = this.isDrawing(tool.value);
+      scene?.viewpoint.setButtons(isDrawing);
+      canvas.dataset.tool = isDrawing ? 'draw' : 'select';
     });
     effect(() => {
-      this.showSurface(surface.value);
+      const wish = framing.value;
+      if (wish === null) return;
+      // With the next picture: what stands beside the scene may only just be coming.
+      this.view.animate(() => {
+        this.frameAll(wish.direction, wish.atOnce);
+        return false;
+      });
     });
-    effect(() => {
-      const { surface: visible, wires } = shown.value;
-      this.surfaceMesh.mesh.visible = visible && this.drawn.value !== null;
-      this.surfaceMesh.setLook({ wires, faded: isStale.value });
-      this.view.invalidate();
-    });
-    effect(() => {
-      this.drawCurves();
-    });
-    effect(() => {
-      this.placeGrid(drawing.value, shown.value.grid, tool.value === 'draw');
-    });
-    effect(() => {
-      this.view.setOrbitButtons(tool.value === 'draw');
-      canvas.dataset.tool = tool.value;
-    });
-    effect(() => {
-      if (framing.value) this.frameAll(framing.value.direction, framing.value.atOnce);
-    });
+  }
+
+  /** Makes the scene of a mode; `show` shows it. */
+  addScene(options: ModeSceneOptions): ModeScene {
+    const made = new ModeScene(this.view, this.theme, options);
+    this.view.scene.add(made.root);
+    this.scenes.set(options.mode, made);
+    return made;
+  }
+
+  show(mode: string): void {
+    const next = this.scenes.get(mode) ?? null;
+    if (next === null || next === this.current.peek()) return;
+    for (const scene of this.scenes.values()) scene.root.visible = scene === next;
+    this.view.use(next.viewpoint);
+    this.current.value = next;
   }
 
   /** The plane drawn in, as the eye now stands. */
   drawingPlane(): Frame {
-    const { plane, offset } = drawing.peek();
+    const scene = this.current.peek();
+    const { plane, offset } = drawingPlane.peek();
+    if (scene === null || scene.options.dimension === 2) return coordinatePlane('xy', 0);
     if (plane !== 'view') return coordinatePlane(plane, offset);
-    const { right, up } = this.view.axes();
-    return viewPlane(this.view.target, right, up, offset);
+    const { right, up } = scene.viewpoint.axes();
+    return viewPlane(scene.viewpoint.target, right, up, offset);
   }
 
   /** The plane through a point in which it is dragged. */
   dragPlane(through: Point): Frame {
-    const { right, up } = this.view.axes();
-    if (drawing.peek().dragIn === 'view') return viewPlane(through, right, up, 0);
+    const scene = this.current.peek();
+    if (scene === null || scene.options.dimension === 2) return coordinatePlane('xy', 0);
+    const { right, up } = scene.viewpoint.axes();
+    if (drawingPlane.peek().dragIn === 'view') return viewPlane(through, right, up, 0);
     return { ...this.drawingPlane(), origin: through };
   }
 
-  /** What lies under a CSS pixel: a vertex within `reach` pixels, else a curve's line, else null. */
-  pick(x: number, y: number, reach: number): Selection | null {
-    const projected = doc.peek().curves.map((curve) => curve.map((point) => this.view.project(point)));
-    const vertices = projected.flatMap((points, curve) =>
-      points.map((p, vertex) => ({ at: { curve, vertex }, distance: p.visible ? Math.hypot(p.x - x, p.y - y) : Infinity })),
-    );
-    const vertex = nearest(vertices, reach);
-    if (vertex) return vertex;
-    const edges = projected.flatMap((points, curve) =>
-      points.map((a, i) => {
-        const b = points[(i + 1) % points.length];
-        const isVisible = a.visible && b.visible;
-        return { at: { curve, vertex: null }, distance: isVisible ? distanceToSegment(x, y, a, b) : Infinity };
-      }),
-    );
-    return nearest(edges, 0.6 * reach);
-  }
-
   frameAll(direction?: Point, atOnce = false): void {
-    const { center, diagonal } = boundsOf(doc.peek().curves);
-    this.view.frame(center, diagonal / 2 || kEmptyRadius, direction, atOnce);
+    const scene = this.current.peek();
+    if (scene === null) return;
+    this.view.resize();
+    scene.viewpoint.frame(boxOfGroup(scene.options.group.peek()), direction, atOnce);
   }
 
   /** Looks at the drawing plane straight on. */
   facePlane(): void {
-    const { normal } = this.drawingPlane();
-    this.view.lookFrom(normal);
+    this.current.peek()?.viewpoint.lookFrom(this.drawingPlane().normal);
   }
 
-  /** Lets the surface appear again, triangle by triangle. */
-  replay(): void {
-    if (surface.peek() === null) return;
-    this.growSince = performance.now();
-    isGrowing.value = true;
-    this.view.animate(this.grow);
-  }
-
-  /** Shows the whole surface now. */
-  skipGrowth(): void {
-    this.growSince = -Infinity;
+  /** Shows what the hand has drawn and the line that it will become; null: nothing any more. */
+  showStroke(raw: readonly Point[] | null, closed: readonly Point[] | null): void {
+    const placement = this.current.peek()?.placement.peek() ?? kIdentity;
+    if (raw) this.pen.show(raw, closed, placement, this.theme.peek());
+    else this.pen.clear();
     this.view.invalidate();
   }
 
-  private readonly grow = (now: number): boolean => {
-    const t = Math.min(1, Math.max(0, (now - this.growSince) / kGrowMs));
-    this.surfaceMesh.setGrowth(t);
-    isGrowing.value = t < 1;
-    return t < 1;
-  };
+  /** Whether the tool draws, which it does only in modes with a pen. */
+  isDrawing(now: Tool): boolean {
+    return now === 'draw' && (this.current.peek()?.options.hasPen ?? false);
+  }
 
-  private showSurface(shownSurface: Surface | null): void {
-    this.view.stop(this.grow);
-    isGrowing.value = false;
-    if (shownSurface) {
-      this.surfaceMesh.setGrowth(1);
-      if (shownSurface.entrance === 'grow' && !prefersReducedMotion()) {
-        this.surfaceMesh.setGrowth(0);
-        this.replay();
-      }
+  private placeGrid({ plane }: DrawingPlane, isShown: boolean, isDrawing: boolean, scene: ModeScene | null, placement: Placement): void {
+    const isInSpace = scene !== null && scene.options.dimension === 3;
+    this.grid.mesh.visible = isInSpace && (isShown || isDrawing);
+    if (isInSpace) {
+      this.grid.place(plane, this.drawingPlane(), scene.viewpoint.radius, isDrawing, placement);
     }
     this.view.invalidate();
   }
-
-  private drawCurves(): void {
-    const state = solve.value;
-    const span = isStale.value ? undefined : surface.value?.span;
-    const inserted: Point[] = [];
-    const firstInserted = span ? span.positions.length / 3 - span.inserted.length : 0;
-    span?.inserted.forEach((_, i) => {
-      inserted.push(new Vector3().fromArray(span.positions, 3 * (firstInserted + i)).toArray());
-    });
-    this.curves.update(
-      doc.value.curves,
-      {
-        selection: selection.value,
-        hover: hover.value,
-        faults: state.phase === 'failed' ? state.faults : [],
-        inserted,
-        vertices: shown.value.vertices,
-      },
-      this.placement.value,
-      this.view.renderer.getPixelRatio(),
-    );
-    this.view.invalidate();
-  }
-
-  private followSize(curves: readonly Curve[]): void {
-    const radius = boundsOf(curves).diagonal / 2 || kEmptyRadius;
-    const placement = this.placement.value;
-    const isPlacedAnew = placement !== this.viewPlaced;
-    this.viewPlaced = placement;
-    if (isPlacedAnew) this.view.place(placement);
-    const ratio = radius / this.view.radius;
-    // Not at every step of a drag: the grid would crawl.
-    if (!isPlacedAnew && ratio < 1.3 && ratio > 0.5) return;
-    this.view.radius = radius;
-    this.replaceGrid();
-  }
-
-  private placeGrid({ plane }: Drawing, isShown: boolean, isDrawing: boolean): void {
-    this.grid.mesh.visible = isShown || isDrawing;
-    this.grid.place(plane, this.drawingPlane(), this.view.radius, isDrawing, this.placement.peek());
-    this.view.invalidate();
-  }
-
-  /** As the state is now, after something that no signal tells of. */
-  private replaceGrid(): void {
-    this.placeGrid(drawing.peek(), shown.peek().grid, tool.peek() === 'draw');
-  }
-
-  private applyTheme(): void {
-    this.theme = readTheme();
-    this.view.setBackground(this.theme.background);
-    this.surfaceMesh.setColors(this.theme.surface);
-    this.curves.setColors(this.theme.curves);
-    this.grid.setColors(this.theme.grid);
-    this.drawCurves();
-  }
-}
-
-function nearest(candidates: readonly { at: Selection; distance: number }[], reach: number): Selection | null {
-  let best: { at: Selection | null; distance: number } = { at: null, distance: reach };
-  for (const candidate of candidates) if (candidate.distance < best.distance) best = candidate;
-  return best.at;
-}
-
-function distanceToSegment(x: number, y: number, a: { x: number; y: number }, b: { x: number; y: number }): number {
-  const [dx, dy] = [b.x - a.x, b.y - a.y];
-  const t = Math.min(1, Math.max(0, ((x - a.x) * dx + (y - a.y) * dy) / (dx * dx + dy * dy || 1)));
-  return Math.hypot(a.x + t * dx - x, a.y + t * dy - y);
 }

@@ -1,7 +1,7 @@
-// The spanned surface: lit on both sides, with its edges, growing triangle by triangle.
+// A surface in space: lit on both sides, with its edges, growing triangle by triangle.
 import { BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, ShaderMaterial, Vector3 } from 'three';
-import type { Span } from 'soapfilm';
 import { toScene, type Placement } from './placement.ts';
+import type { SurfaceColors } from './theme.ts';
 
 /** Share of the whole growth that one triangle takes to unfold. */
 const kUnfold = 0.16;
@@ -64,11 +64,11 @@ void main() {
   #include <colorspace_fragment>
 }`;
 
-export interface SurfaceColors {
-  readonly front: string;
-  readonly back: string;
-  readonly wire: string;
-  readonly glow: string;
+/** Triangles of vertices `[3n]`, and the order in which they grow in: each triangle once. */
+export interface Surface {
+  readonly positions: Float64Array;
+  readonly triangles: Uint32Array;
+  readonly order: Uint32Array;
 }
 
 export class SurfaceMesh {
@@ -101,18 +101,18 @@ export class SurfaceMesh {
     this.mesh.frustumCulled = false;
   }
 
-  setSpan(span: Span, placement: Placement): void {
-    const m = span.order.length;
+  setSurface(surface: Surface, placement: Placement): void {
+    const m = surface.order.length;
     const position = new Float32Array(9 * m);
     const normal = new Float32Array(9 * m);
     const center = new Float32Array(9 * m);
     const corner = new Float32Array(9 * m);
     const birth = new Float32Array(3 * m);
     const [a, b, c, n, g] = [new Vector3(), new Vector3(), new Vector3(), new Vector3(), new Vector3()];
-    span.order.forEach((triangle, rank) => {
+    surface.order.forEach((triangle, rank) => {
       [a, b, c].forEach((point, i) => {
-        const at = 3 * span.triangles[3 * triangle + i];
-        const [x, y, z] = span.positions.subarray(at, at + 3);
+        const at = 3 * surface.triangles[3 * triangle + i];
+        const [x, y, z] = surface.positions.subarray(at, at + 3);
         point.set(...toScene(placement, [x, y, z]));
       });
       g.copy(a).add(b).add(c).divideScalar(3);

@@ -1,14 +1,31 @@
 // The colours of the scene, taken from the style sheet so that light and dark live in one place.
-import type { CurveColors, PenColors } from './curves.ts';
-import type { GridColors } from './grid.ts';
-import type { SurfaceColors } from './surface.ts';
+
+export interface SurfaceColors {
+  readonly front: string;
+  readonly back: string;
+  readonly wire: string;
+  readonly glow: string;
+}
+
+export interface CurveColors {
+  readonly line: string;
+  readonly selected: string;
+  readonly fault: string;
+  readonly inserted: string;
+  readonly rim: string;
+}
+
+export interface GridColors {
+  readonly line: string;
+  readonly axes: readonly [x: string, y: string, z: string];
+}
 
 export interface Theme {
   readonly background: string;
   readonly surface: SurfaceColors;
   readonly curves: CurveColors;
   readonly grid: GridColors;
-  readonly pen: PenColors;
+  readonly pen: { readonly line: string; readonly faint: string };
 }
 
 export function readTheme(): Theme {

@@ -18,25 +18,35 @@ export const normalize = (a: Point): Point => scale(a, 1 / (length(a) || 1));
 /** Less than the largest number by enough for a few factors more. */
 const kLargest = 2 ** 1000;
 
+/** A box along the axes; one of no points has its `low` above its `high`. */
+export interface Box {
+  readonly low: Point;
+  readonly high: Point;
+}
+
+export const kNoBox: Box = { low: [Infinity, Infinity, Infinity], high: [-Infinity, -Infinity, -Infinity] };
+
+/** The least box around all boxes. */
+export function unionOf(boxes: Iterable<Box>): Box {
+  const [low, high] = [[...kNoBox.low], [...kNoBox.high]];
+  for (const box of boxes) {
+    for (let axis = 0; axis < 3; axis++) {
+      low[axis] = Math.min(low[axis], box.low[axis]);
+      high[axis] = Math.max(high[axis], box.high[axis]);
+    }
+  }
+  return { low: low as [number, number, number], high: high as [number, number, number] };
+}
+
 export interface Bounds {
   readonly center: Point;
   /** Length of the bounding box's diagonal; 0 for one point and for none. */
   readonly diagonal: number;
 }
 
-/** The bounding box of curves, by its centre and diagonal; centre 0 where there are no points. */
-export function boundsOf(curves: readonly (readonly Point[])[]): Bounds {
-  const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
-  for (const curve of curves) {
-    for (const point of curve) {
-      for (let axis = 0; axis < 3; axis++) {
-        low[axis] = Math.min(low[axis], point[axis]);
-        high[axis] = Math.max(high[axis], point[axis]);
-      }
-    }
-  }
-  if (low[0] > high[0]) return { center: [0, 0, 0], diagonal: 0 };
+/** A box by its centre and diagonal; centre 0 where there are no points. */
+export function boundsOf({ low, high }: Box): Bounds {
+  if (!(low[0] <= high[0])) return { center: [0, 0, 0], diagonal: 0 };
   return {
     // Halved first, since the sum of the largest numbers is infinite.
     center: [low[0] / 2 + high[0] / 2, low[1] / 2 + high[1] / 2, low[2] / 2 + high[2] / 2],
