@@ -17,12 +17,11 @@ constexpr double kTurnOfOpen = 2.8;
 /// An edge looks for partners on rims not farther than this many radii of its own.
 constexpr double kReach = 3;
 
-/// A rim's edges as voters.
+/// Rims as voters.
 struct Voters {
   std::vector<RimSide> sides;   // [e]
   std::vector<double> lengths;  // [e]
-  std::vector<Vec3> centres;    // [k] of rims
-  std::vector<double> radii;    // [k]
+  std::vector<RimBall> balls;   // [k]
 };
 
 /// Unit vectors from the middles of edges into the hole, smoothed over three edges.
@@ -50,8 +49,7 @@ void placeVoters(const Rims& rims, const UnitScale& at, Voters& voters) {
       side.ahead = size > 0 ? (1 / size) * ahead : Vec3{0, 0, 0};
       side.along = cross(side.ahead, side.normal);
     }
-    voters.centres[r] = centre;
-    voters.radii[r] = radius;
+    voters.balls[r] = {centre, radius};
   }
 }
 
@@ -164,40 +162,28 @@ bool castVotes(const MeshView& mesh, const Rims& rims, Work& work, Charge& charg
   const size_t edges = rims.vertices.size();
   Charge temporary(work);
   if (!temporary.add(edges * (sizeof(RimSide) + sizeof(double) + sizeof(Vec3)) +
-                     rims.count() * (sizeof(Vec3) + sizeof(double))) ||
+                     rims.count() * sizeof(RimBall)) ||
       !charge.add(rims.count() * sizeof(double)))
     return false;
   Voters voters{std::vector<RimSide>(edges), std::vector<double>(edges),
-                std::vector<Vec3>(rims.count()), std::vector<double>(rims.count())};
+                std::vector<RimBall>(rims.count())};
   placeVoters(rims, at, voters);
   RimTree tree(work);
-  if (!tree.build(voters.sides)) return false;
+  if (!tree.build(voters.sides, rims.starts, voters.balls)) return false;
 
   struct Ballot {
     uint32_t first, second;
     double shareOfFirst, shareOfSecond;
   };
   std::vector<Ballot> ballots;
-  std::vector<uint32_t> partners;
   result = {};
   result.openness.assign(rims.count(), 0);
   for (uint32_t r = 0; r < rims.count(); ++r) {
     const uint32_t first = rims.starts[r], n = rims.starts[r + 1] - first;
     const double whole = std::accumulate(voters.lengths.begin() + first,
                                          voters.lengths.begin() + first + n, 0.0);
-    const auto isInReach = [&](uint32_t other) {
-      return distance(voters.centres[r], voters.centres[other]) - voters.radii[other] <=
-             kReach * voters.radii[r];
-    };
-    const auto isNeighbour = [&](uint32_t e, uint32_t f) {
-      const uint32_t apart = e > f ? e - f : f - e;
-      return apart == 0 || (n > 5 && (apart == 1 || apart == n - 1));
-    };
     for (uint32_t e = first; e < first + n; ++e) {
-      const RimPartner best = tree.best(e, [&](uint32_t f) {
-        const uint32_t other = voters.sides[f].rim;
-        return other == r ? !isNeighbour(e, f) : isInReach(other);
-      });
+      const RimPartner best = tree.best(e, kReach * voters.balls[r].radius);
       if (!work.going()) return false;
       const double share = whole > 0 ? voters.lengths[e] / whole : 1.0 / n;
       if (best.edge == kNone || best.turn > kTurnOfOpen) result.openness[r] += share;
