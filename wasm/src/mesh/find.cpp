@@ -241,7 +241,7 @@ bool RimFinder::split(const std::vector<Step>& walk) {
 bool RimFinder::add(ArrayView<const Step> walk) {
   if (walk.size() < 3) return true;  // a slit
   const uint32_t first = uint32_t(rims_.vertices.size());
-  Rim rim{0, 0, kNone, 0};
+  Rim rim{0, 0, kNone, 0, false};
   for (const Step s : walk) {
     const uint32_t h = edges_[s.edge], v = vertexOf(2 * s.edge + End(s.isAgainst));
     const Vec3 normal = normalOf(h);
@@ -250,6 +250,7 @@ bool RimFinder::add(ArrayView<const Step> walk) {
     rims_.normals.push_back(s.isAgainst ? -normal : normal);
     rim.length += distance(at_(a_.head(h)), at_(a_.tail(h)));
     rim.cutEdges += a_.isCut(h);
+    rim.crossesSeam |= s.isAgainst != walk[0].isAgainst;
   }
   rim.length /= at_.factor;
   rim.component = a_.component[rims_.halves[first] / 3];

@@ -16,6 +16,7 @@ struct Rim {
   double length, diameter;  // the diameter of more than 1000 vertices is a little too small
   uint32_t component;       // of the faces along it
   uint32_t cutEdges;        // edges of it that the mesh has other faces at (Adjacency::cut)
+  bool crossesSeam;         // of a component that is not orientable: filled, it still is not
 };
 
 /// Rims by their least half-edge. Rim i has the edges starts[i] to before starts[i + 1]. Edge e runs

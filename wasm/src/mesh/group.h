@@ -15,46 +15,48 @@ namespace sf {
 
 enum class GroupKind : uint8_t { Alone, Island, Band };
 
-/// Two rims, and the larger of the shares of either, by length, that looks at the other.
+/// How two rims look at each other.
 struct RimVote {
-  uint32_t first, second;  // first < second
-  double vote;
+  uint32_t first, second;               // first < second
+  double shareOfFirst, shareOfSecond;   // of each rim, by length, that looks at the other
+  double vote;    // the larger share; or that of one rim at all rims of the other's group, if that joins them
+  bool isJoined;
 };
 
 struct Grouping {
   std::vector<double> openness;     // [k] share of each rim, by length, that faces nothing
   std::vector<RimVote> votes;       // all pairs with votes, by rims
+  /// Votes from kDoubtFrom to kDoubtTo between rims that stronger votes do not join: the cost of spans
+  /// should decide. Indices in `votes`.
+  std::vector<uint32_t> doubts;
+
   std::vector<uint32_t> starts;     // [g+1] in `rims`
   std::vector<uint32_t> rims;       // [k] outer rim first, then by number; groups by their least rim
   std::vector<GroupKind> kinds;     // [g]
   std::vector<double> scores;       // [g] the least vote that the group hangs by; 1 for a rim alone
   std::vector<uint8_t> isOpenRim;   // [g] meant to be open
-  /// [g] Along edges that have several faces, and not a hole either: where a sheet ends on others.
+  /// [g] Open, and along edges that have other faces: where a sheet ends on others. Neither a hole nor
+  /// an open rim of the mesh.
   std::vector<uint8_t> isSeam;
 
   uint32_t count() const { return uint32_t(kinds.size()); }
 };
 
-constexpr double kJoinsFrom = 0.4;                    // least vote that joins two rims
-constexpr double kOpenFrom = 0.5;                     // an open rim has more openness
-constexpr double kDoubtFrom = 0.3, kDoubtTo = 0.65;   // votes that the cost should confirm
+constexpr double kJoinsFrom = 0.4;                   // least vote that joins two rims
+constexpr double kJoinsGroupFrom = 0.5;              // least share at a group that joins a rim to it
+constexpr double kOpenFrom = 0.5;                    // an open rim has more openness
+constexpr double kDoubtFrom = 0.3, kDoubtTo = 0.65;  // votes that the cost should confirm
 
-/// Votes of all rims, and their openness.
-/// About O(r log r) time for r edges of rims. Memory of the result is charged to `charge`.
+/// Groups rims by their votes.
+/// A group is open if more than kOpenFrom of its rims' length faces nothing. But the only open group of a
+/// body, whose closing leaves it a body and no sheet, is a hole: of a bowl, or half a sphere.
+/// About O(m + r log r) time for r edges of rims. Memory of the result is charged to `charge`.
 /// False once `work` has to end.
-bool castVotes(const MeshView& mesh, const Rims& rims, Work& work, Charge& charge,
-               Grouping& result);
+bool groupRims(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work,
+               Charge& charge, Grouping& result);
 
-/// Groups of rims that are joined by pairs, directly or not.
-///   result  with openness and votes; the rest is made anew
-///   joined  [votes] whether each pair is joined
-/// False once `work` has to end.
-bool joinRims(const MeshView& mesh, const Rims& rims, ArrayView<const uint8_t> joined, Work& work,
-              Charge& charge, Grouping& result);
-
-/// castVotes, and joinRims with all pairs that have votes from kJoinsFrom on. To let the cost decide
-/// those between kDoubtFrom and kDoubtTo, call joinRims again.
-bool groupRims(const MeshView& mesh, const Rims& rims, Work& work, Charge& charge,
-               Grouping& result);
+/// Makes the groups anew after `isJoined` of votes has been changed. O(m + r).
+bool regroupRims(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work,
+                 Charge& charge, Grouping& result);
 
 }  // namespace sf
