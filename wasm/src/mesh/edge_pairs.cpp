@@ -9,7 +9,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 // Radians: how much two faces may bend and still belong together, what it costs that they are wound
 // against each other, and how much worse the second best has to be.
-constexpr double kLargestMisfit = 2.5, kUnlikeWindings = 1.5, kMargin = 0.15;
+constexpr double kLargestMisfit = 2.5, kUnlikeWindings = 2, kMargin = 0.15;
 // How much a pair with its body inside the angle is better than one with the angle outside, at
 // most, each way.
 constexpr double kOutside = 0.2;
