@@ -20,10 +20,13 @@ constexpr double kPi = 3.14159265358979323846;
 
 void push(std::vector<double>& list, Vec3 p) { list.insert(list.end(), {p.x, p.y, p.z}); }
 void addPoint(Sheet& sheet, Vec3 p) { push(sheet.positions, p); }
-void addTriangle(Sheet& sheet, uint32_t a, uint32_t b, uint32_t c) { sheet.triangles.insert(sheet.triangles.end(), {a, b, c}); }
+void addTriangle(Sheet& sheet, uint32_t a, uint32_t b, uint32_t c) {
+  sheet.triangles.insert(sheet.triangles.end(), {a, b, c});
+}
 
 /// A grid of quadrilaterals, each with the diagonal that chance gives it.
-void addGrid(Sheet& sheet, uint32_t columns, uint32_t rows, bool wrapsX, bool wrapsY, std::mt19937& random) {
+void addGrid(Sheet& sheet, uint32_t columns, uint32_t rows, bool wrapsX, bool wrapsY,
+             std::mt19937& random) {
   const uint32_t nx = wrapsX ? columns : columns - 1, ny = wrapsY ? rows : rows - 1;
   const auto id = [&](uint32_t i, uint32_t j) { return (j % rows) * columns + i % columns; };
   for (uint32_t j = 0; j < ny; ++j)
@@ -47,11 +50,22 @@ struct Shift {
 Sheet sphereSheet(uint32_t level, double jitter, uint32_t seed) {
   Sheet sheet;
   const double g = (1 + std::sqrt(5)) / 2;
-  for (const Vec3& p : {Vec3{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
-                        {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}})
+  for (const Vec3& p : {Vec3{-1, g, 0},
+                        {1, g, 0},
+                        {-1, -g, 0},
+                        {1, -g, 0},
+                        {0, -1, g},
+                        {0, 1, g},
+                        {0, -1, -g},
+                        {0, 1, -g},
+                        {g, 0, -1},
+                        {g, 0, 1},
+                        {-g, 0, -1},
+                        {-g, 0, 1}})
     addPoint(sheet, (1 / length(p)) * p);
-  sheet.triangles = {0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11, 4, 11, 10, 2, 10, 7, 6, 7, 1, 8,
-                     3, 9, 4, 3, 4, 2, 3, 2, 6, 3, 6, 8, 3, 8, 9, 4, 9, 5, 2, 4, 11, 6, 2, 10, 8, 6, 7, 9, 8, 1};
+  sheet.triangles = {0, 11, 5,  0, 5,  1, 0, 1, 7, 0, 7,  10, 0, 10, 11, 1, 5, 9, 5, 11,
+                     4, 11, 10, 2, 10, 7, 6, 7, 1, 8, 3,  9,  4, 3,  4,  2, 3, 2, 6, 3,
+                     6, 8,  3,  8, 9,  4, 9, 5, 2, 4, 11, 6,  2, 10, 8,  6, 7, 9, 8, 1};
   for (uint32_t l = 0; l < level; ++l) {
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
     const auto middle = [&](uint32_t a, uint32_t b) {
@@ -66,20 +80,24 @@ Sheet sphereSheet(uint32_t level, double jitter, uint32_t seed) {
     const std::vector<uint32_t> old = sheet.triangles;
     sheet.triangles.clear();
     for (size_t t = 0; t < old.size(); t += 3) {
-      const uint32_t a = old[t], b = old[t + 1], c = old[t + 2], ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      addTriangle(sheet, a, ab, ca), addTriangle(sheet, ab, b, bc), addTriangle(sheet, ca, bc, c), addTriangle(sheet, ab, bc, ca);
+      const uint32_t a = old[t], b = old[t + 1], c = old[t + 2], ab = middle(a, b),
+                     bc = middle(b, c), ca = middle(c, a);
+      addTriangle(sheet, a, ab, ca), addTriangle(sheet, ab, b, bc), addTriangle(sheet, ca, bc, c),
+          addTriangle(sheet, ab, bc, ca);
     }
   }
   Shift shift{std::mt19937(seed), jitter * 1.1 / double(1u << level)};
   for (uint32_t v = 0; v < sheet.positions.size() / 3; ++v) {
     Vec3 p = sheet.at(v) + Vec3{shift(), shift(), shift()};
     p = (1 / length(p)) * p;
-    sheet.positions[3 * v] = p.x, sheet.positions[3 * v + 1] = p.y, sheet.positions[3 * v + 2] = p.z;
+    sheet.positions[3 * v] = p.x, sheet.positions[3 * v + 1] = p.y,
+                        sheet.positions[3 * v + 2] = p.z;
   }
   return sheet;
 }
 
-Sheet torusSheet(uint32_t around, uint32_t across, double radius, double tube, double jitter, uint32_t seed) {
+Sheet torusSheet(uint32_t around, uint32_t across, double radius, double tube, double jitter,
+                 uint32_t seed) {
   Sheet sheet;
   Shift shift{std::mt19937(seed), jitter};
   for (uint32_t j = 0; j < across; ++j)
@@ -104,7 +122,8 @@ Sheet cylinderSheet(uint32_t around, uint32_t along, double height, double jitte
   return sheet;
 }
 
-Sheet graphSheet(uint32_t n, const std::function<double(double, double)>& height, double jitter, uint32_t seed) {
+Sheet graphSheet(uint32_t n, const std::function<double(double, double)>& height, double jitter,
+                 uint32_t seed) {
   Sheet sheet;
   Shift shift{std::mt19937(seed), jitter};
   for (uint32_t j = 0; j < n; ++j)
@@ -129,14 +148,16 @@ Hole cutHole(const Sheet& sheet, const std::function<bool(Vec3)>& region, uint32
   std::map<uint32_t, uint32_t> nextOnRim;
   std::map<uint32_t, Vec3> normals;
   std::map<std::pair<uint32_t, uint32_t>, size_t> keptEdges;
-  for (size_t h = 0; h < kept.size(); ++h) keptEdges[{kept[h], kept[h % 3 == 2 ? h - 2 : h + 1]}] = h / 3;
+  for (size_t h = 0; h < kept.size(); ++h)
+    keptEdges[{kept[h], kept[h % 3 == 2 ? h - 2 : h + 1]}] = h / 3;
   for (size_t h = 0; h < hole.cutAway.size(); ++h) {
     const uint32_t a = hole.cutAway[h], b = hole.cutAway[h % 3 == 2 ? h - 2 : h + 1];
     const auto found = keptEdges.find({b, a});
     if (found == keptEdges.end()) continue;
     REQUIRE(nextOnRim.count(a) == 0);
     const uint32_t* v = &kept[3 * found->second];
-    nextOnRim[a] = b, normals[a] = cross(sheet.at(v[1]) - sheet.at(v[0]), sheet.at(v[2]) - sheet.at(v[0]));
+    nextOnRim[a] = b,
+    normals[a] = cross(sheet.at(v[1]) - sheet.at(v[0]), sheet.at(v[2]) - sheet.at(v[0]));
   }
   std::vector<Vec3> positions;
   std::vector<double> boundaryNormals;
@@ -199,7 +220,8 @@ Hole cutHole(const Sheet& sheet, const std::function<bool(Vec3)>& region, uint32
   }
   for (size_t t = 0; t < span.triangles.size(); t += 3) {
     const uint32_t* v = &span.triangles[t];
-    hole.surface.triangles.insert(hole.surface.triangles.end(), {v[0], v[runsAlong ? 1 : 2], v[runsAlong ? 2 : 1]});
+    hole.surface.triangles.insert(hole.surface.triangles.end(),
+                                  {v[0], v[runsAlong ? 1 : 2], v[runsAlong ? 2 : 1]});
   }
   return hole;
 }
@@ -216,7 +238,8 @@ double patchError(const sf::LocalSurface& surface, const std::function<double(Ve
   for (size_t t = 3 * size_t(surface.fixedTriangles); t < surface.triangles.size(); t += 3) {
     const Vec3 a = vertexOf(surface, t), b = vertexOf(surface, t + 1), c = vertexOf(surface, t + 2);
     const double w = length(cross(b - a, c - a)) / 2;
-    for (const Vec3& p : {(1.0 / 3) * (a + b + c), a, b, c}) sum += w / 4 * distance(p) * distance(p);
+    for (const Vec3& p : {(1.0 / 3) * (a + b + c), a, b, c})
+      sum += w / 4 * distance(p) * distance(p);
     area += w;
   }
   return std::sqrt(sum / area);
@@ -233,14 +256,16 @@ PatchShape shapeOf(const sf::LocalSurface& surface) {
   };
   for (size_t h = 0; h < surface.triangles.size(); ++h) {
     const uint32_t a = surface.triangles[h], b = surface.triangles[h % 3 == 2 ? h - 2 : h + 1];
-    if (!edges.insert({{a, b}, h / 3}).second || ++undirected[std::minmax(a, b)] > 2) shape.isManifold = false;
+    if (!edges.insert({{a, b}, h / 3}).second || ++undirected[std::minmax(a, b)] > 2)
+      shape.isManifold = false;
   }
   uint32_t rim = 0;
   shape.leastAngle = 180;
   for (size_t t = fixed; t < surface.triangles.size(); t += 3) {
     double least = 180;
     for (size_t k = 0; k < 3; ++k) {
-      const Vec3 a = vertexOf(surface, t + k), b = vertexOf(surface, t + (k + 1) % 3), c = vertexOf(surface, t + (k + 2) % 3);
+      const Vec3 a = vertexOf(surface, t + k), b = vertexOf(surface, t + (k + 1) % 3),
+                 c = vertexOf(surface, t + (k + 2) % 3);
       least = std::min(least, sf::angleBetween(b - a, c - a) * 180 / kPi);
       const auto other = edges.find({surface.triangles[t + (k + 1) % 3], surface.triangles[t + k]});
       if (other == edges.end() || 3 * other->second >= fixed) continue;

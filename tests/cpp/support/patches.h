@@ -12,17 +12,22 @@ namespace sftest {
 struct Sheet {
   std::vector<double> positions;    // [3n]
   std::vector<uint32_t> triangles;  // [3m]
-  sf::Vec3 at(uint32_t v) const { return {positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]}; }
+  sf::Vec3 at(uint32_t v) const {
+    return {positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]};
+  }
 };
 
 /// Surfaces of regular make whose vertices are shifted in the surface at random by up to `jitter` of an edge.
 /// A sphere of radius 1: 20 * 4^level triangles.
 Sheet sphereSheet(uint32_t level, double jitter = 0.2, uint32_t seed = 1);
-Sheet torusSheet(uint32_t around, uint32_t across, double radius, double tube, double jitter = 0.2, uint32_t seed = 1);
+Sheet torusSheet(uint32_t around, uint32_t across, double radius, double tube, double jitter = 0.2,
+                 uint32_t seed = 1);
 /// Of radius 1, without ends.
-Sheet cylinderSheet(uint32_t around, uint32_t along, double height, double jitter = 0.2, uint32_t seed = 1);
+Sheet cylinderSheet(uint32_t around, uint32_t along, double height, double jitter = 0.2,
+                    uint32_t seed = 1);
 /// A square [-1, 1]^2 at the height that a function gives.
-Sheet graphSheet(uint32_t n, const std::function<double(double, double)>& height, double jitter = 0.2, uint32_t seed = 1);
+Sheet graphSheet(uint32_t n, const std::function<double(double, double)>& height,
+                 double jitter = 0.2, uint32_t seed = 1);
 
 /// One hole of a sheet, with its surroundings and a patch of the solver.
 struct Hole {
@@ -44,9 +49,10 @@ double patchError(const sf::LocalSurface& surface, const std::function<double(sf
 struct PatchShape {
   uint32_t triangles = 0;
   double area = 0;
-  double leastAngle = 0, meanLeastAngle = 0;  // degrees; of triangles with no vertex outside the patch as well
-  double rimAngle = 0;                        // degrees, mean over rim edges
-  bool isManifold = true;                     // no edge of the whole in three triangles, or twice in one direction
+  double leastAngle = 0,
+         meanLeastAngle = 0;  // degrees; of triangles with no vertex outside the patch as well
+  double rimAngle = 0;        // degrees, mean over rim edges
+  bool isManifold = true;     // no edge of the whole in three triangles, or twice in one direction
 };
 PatchShape shapeOf(const sf::LocalSurface& surface);
 

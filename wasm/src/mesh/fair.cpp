@@ -17,7 +17,8 @@ constexpr double kRounding = 1e-11;
 /// The system (L M^-1)^(k-1) L x = 0 for the free vertices of a surface.
 class FairSystem {
  public:
-  FairSystem(const LocalSurface& surface, ArrayView<const Vec3> at, const Laplacian& laplacian, uint32_t order)
+  FairSystem(const LocalSurface& surface, ArrayView<const Vec3> at, const Laplacian& laplacian,
+             uint32_t order)
       : laplacian_(laplacian), order_(order), first_(surface.fixedVertices), at_(at) {}
 
   /// Moves the free vertices of x to the solution. False if there is none, or when the work ended.
@@ -26,7 +27,9 @@ class FairSystem {
  private:
   bool assemble(SparseRows& matrix, Work& work, Charge& charge);
   void forces(ArrayView<const Vec3> x);
-  double inverseMass(uint32_t v) const { return laplacian_.isBoundary[v] ? 0 : 1 / laplacian_.mass[v]; }
+  double inverseMass(uint32_t v) const {
+    return laplacian_.isBoundary[v] ? 0 : 1 / laplacian_.mass[v];
+  }
 
   const Laplacian& laplacian_;
   uint32_t order_;
@@ -60,9 +63,9 @@ void FairSystem::forces(ArrayView<const Vec3> x) {
 
 /// A sum of rows.
 struct RowSum {
-  std::vector<double> values;     // [n] 0 where not in columns
+  std::vector<double> values;  // [n] 0 where not in columns
   std::vector<uint32_t> columns;
-  std::vector<uint8_t> isIn;      // [n]
+  std::vector<uint8_t> isIn;  // [n]
 
   explicit RowSum(size_t n) : values(n, 0.0), isIn(n, 0) {}
   void add(const SparseRows& rows, uint32_t row, double factor) {
@@ -97,7 +100,9 @@ bool FairSystem::assemble(SparseRows& matrix, Work& work, Charge& charge) {
     }
     for (const uint32_t c : sum.columns) {
       if (numberOf_[c] == kNone) continue;
-      if (!push(matrix.columns, numberOf_[c], charge) || !push(matrix.values, sum.values[c], charge)) return false;
+      if (!push(matrix.columns, numberOf_[c], charge) ||
+          !push(matrix.values, sum.values[c], charge))
+        return false;
     }
     matrix.starts.push_back(uint32_t(matrix.columns.size()));
     if (!work.tick(order_ * order_ * 200)) return false;
@@ -158,7 +163,8 @@ Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairn
   double low[3], high[3], extent = 0;
   for (int a = 0; a < 3; ++a) {
     low[a] = high[a] = p[size_t(a)];
-    for (size_t v = 1; v < n; ++v) low[a] = std::fmin(low[a], p[3 * v + a]), high[a] = std::fmax(high[a], p[3 * v + a]);
+    for (size_t v = 1; v < n; ++v)
+      low[a] = std::fmin(low[a], p[3 * v + a]), high[a] = std::fmax(high[a], p[3 * v + a]);
     extent = std::fmax(extent, high[a] - low[a]);
   }
   if (!(extent > 0) || !std::isfinite(extent)) return work.status();
@@ -170,17 +176,20 @@ Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairn
   Laplacian laplacian;
   uint32_t order = options.order < 3 ? options.order : 3;
   for (uint32_t round = 0; round < options.rounds && order > 0;) {
-    for (size_t v = 0; v < n; ++v) unit[3 * v] = at[v].x, unit[3 * v + 1] = at[v].y, unit[3 * v + 2] = at[v].z;
+    for (size_t v = 0; v < n; ++v)
+      unit[3 * v] = at[v].x, unit[3 * v + 1] = at[v].y, unit[3 * v + 2] = at[v].z;
     if (!buildLaplacian(unit, surface.triangles, work, laplacian)) return work.status();
     solved = at;
     FairSystem system(surface, at, laplacian, order);
     bool isGood = system.solve(solved, work);
     if (!work.going()) return work.status();
-    for (const Vec3& q : solved) isGood = isGood && std::fabs(q.x) < 1e3 && std::fabs(q.y) < 1e3 && std::fabs(q.z) < 1e3;
+    for (const Vec3& q : solved)
+      isGood = isGood && std::fabs(q.x) < 1e3 && std::fabs(q.y) < 1e3 && std::fabs(q.z) < 1e3;
     if (!isGood) {
       // From the beginning: what a system without a good solution gave is no better than the patch.
       --order, round = 0;
-      for (size_t v = surface.fixedVertices; v < n; ++v) at[v] = {scaled(v, 0), scaled(v, 1), scaled(v, 2)};
+      for (size_t v = surface.fixedVertices; v < n; ++v)
+        at[v] = {scaled(v, 0), scaled(v, 1), scaled(v, 2)};
       continue;
     }
     at.swap(solved), result.order = order;
@@ -190,7 +199,8 @@ Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairn
     const Vec3 before{p[3 * v], p[3 * v + 1], p[3 * v + 2]};
     const double moved[3] = {at[v].x, at[v].y, at[v].z};
     for (int a = 0; a < 3; ++a) p[3 * v + a] = low[a] + extent * (moved[a] + 0.5);
-    result.moved = std::fmax(result.moved, distance(before, {p[3 * v], p[3 * v + 1], p[3 * v + 2]}));
+    result.moved =
+        std::fmax(result.moved, distance(before, {p[3 * v], p[3 * v + 1], p[3 * v + 2]}));
   }
   if (order == 0) result.order = 0;
   return work.status();

@@ -20,8 +20,9 @@ struct FairOptions {
 };
 
 struct Fairness {
-  uint32_t order = 0;  // k of the result: less than asked for where that had no solution; 0 if nothing was done
-  double moved = 0;    // the largest distance that a vertex moved
+  uint32_t order =
+      0;  // k of the result: less than asked for where that had no solution; 0 if nothing was done
+  double moved = 0;  // the largest distance that a vertex moved
 };
 
 /// Moves the vertices from `fixedVertices` on. Surroundings of k rings determine the result; fewer do.

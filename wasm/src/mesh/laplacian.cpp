@@ -17,8 +17,8 @@ constexpr double kLargestCotangent = 1e4;
 
 /// A triangulation of the surface by lengths alone: no places, so that a flip changes nothing of the surface.
 struct Intrinsic {
-  TriangleMesh mesh;             // its corners and twins
-  std::vector<double> lengths;   // [3m] of half-edges
+  TriangleMesh mesh;            // its corners and twins
+  std::vector<double> lengths;  // [3m] of half-edges
 
   double doubleArea(uint32_t h) const;
   double cotangent(uint32_t h) const;
@@ -48,7 +48,8 @@ bool Intrinsic::flip(uint32_t h) {
   const uint32_t g = mesh.twins[h], h1 = nextInTriangle(h), g1 = nextInTriangle(g);
   if (h / 3 == g / 3 || mesh.twins[h1] == g1) return false;
   // a at the origin, b on the x axis, the apex of h above it and that of g below.
-  const auto apexOf = [&](double base, double fromStart, double toEnd, double area, double& x, double& y) {
+  const auto apexOf = [&](double base, double fromStart, double toEnd, double area, double& x,
+                          double& y) {
     x = base > 0 ? (base * base + (fromStart - toEnd) * (fromStart + toEnd)) / (2 * base) : 0;
     y = base > 0 ? area / base : fromStart;
   };
@@ -69,14 +70,17 @@ bool Intrinsic::flip(uint32_t h) {
 void measure(ArrayView<const double> positions, Intrinsic& surface) {
   const std::vector<uint32_t>& corners = surface.mesh.corners;
   surface.lengths.resize(corners.size());
-  const auto at = [&](uint32_t v) { return Vec3{positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]}; };
+  const auto at = [&](uint32_t v) {
+    return Vec3{positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]};
+  };
   double sum = 0;
   for (uint32_t h = 0; h < corners.size(); ++h)
     sum += surface.lengths[h] = distance(at(corners[h]), at(corners[nextInTriangle(h)]));
   const double margin = corners.empty() ? 0 : kMollify * sum / double(corners.size());
   double most = 0;
   for (uint32_t h = 0; h < corners.size(); ++h) {
-    const double slack = surface.lengths[nextInTriangle(h)] + surface.lengths[prevInTriangle(h)] - surface.lengths[h];
+    const double slack = surface.lengths[nextInTriangle(h)] + surface.lengths[prevInTriangle(h)] -
+                         surface.lengths[h];
     most = std::fmax(most, margin - slack);
   }
   if (most > 0)
@@ -111,7 +115,8 @@ struct Weight {
 };
 
 /// The matrix of the triangles that count.
-bool assemble(const Intrinsic& surface, uint32_t n, ArrayView<const uint8_t> isLeftOut, Work& work, SparseRows& rows) {
+bool assemble(const Intrinsic& surface, uint32_t n, ArrayView<const uint8_t> isLeftOut, Work& work,
+              SparseRows& rows) {
   const std::vector<uint32_t>& corners = surface.mesh.corners;
   const auto counts = [&](uint32_t h) {
     if (isLeftOut.empty()) return true;
@@ -143,8 +148,10 @@ bool assemble(const Intrinsic& surface, uint32_t n, ArrayView<const uint8_t> isL
     for (uint32_t e = starts[v]; e < starts[v + 1]; ++e) {
       const Weight& entry = entries[e];
       if (entry.column == v) continue;  // an edge from a vertex to itself says nothing
-      if (at[entry.column] == kNone || at[entry.column] < from || rows.columns[at[entry.column]] != entry.column)
-        at[entry.column] = uint32_t(rows.columns.size()), rows.columns.push_back(entry.column), rows.values.push_back(0);
+      if (at[entry.column] == kNone || at[entry.column] < from ||
+          rows.columns[at[entry.column]] != entry.column)
+        at[entry.column] = uint32_t(rows.columns.size()), rows.columns.push_back(entry.column),
+        rows.values.push_back(0);
       rows.values[at[entry.column]] -= entry.value;
       rows.values[from] += entry.value;
     }
@@ -156,8 +163,8 @@ bool assemble(const Intrinsic& surface, uint32_t n, ArrayView<const uint8_t> isL
 
 }  // namespace
 
-bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t> triangles, Work& work,
-                    Laplacian& result) {
+bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t> triangles,
+                    Work& work, Laplacian& result) {
   const uint32_t n = uint32_t(positions.size() / 3), m = uint32_t(triangles.size() / 3);
   Charge charge(work);
   // Corners, twins, lengths, the stack, and entries of one matrix, with the search for twins less.
@@ -170,7 +177,8 @@ bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t>
   result.isBoundary.assign(n, 1);
   for (const uint32_t v : triangles) result.isBoundary[v] = 0;
   for (uint32_t h = 0; h < 3 * m; ++h)
-    if (surface.mesh.twins[h] == kNone) result.isBoundary[triangles[h]] = result.isBoundary[triangles[nextInTriangle(h)]] = 1;
+    if (surface.mesh.twins[h] == kNone)
+      result.isBoundary[triangles[h]] = result.isBoundary[triangles[nextInTriangle(h)]] = 1;
   if (!makeDelaunay(surface, work)) return false;
 
   result.mass.assign(n, 0);
@@ -182,7 +190,8 @@ bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t>
   const double mean = total > 0 ? total / n : 1;
   // A vertex without area would make its neighbours infinitely stiff.
   for (double& area : result.mass) area = std::fmax(area / mean, 1e-6);
-  return assemble(surface, n, {}, work, result.whole) && assemble(surface, n, result.isBoundary, work, result.inner);
+  return assemble(surface, n, {}, work, result.whole) &&
+         assemble(surface, n, result.isBoundary, work, result.inner);
 }
 
 }  // namespace sf

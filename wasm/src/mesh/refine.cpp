@@ -17,7 +17,9 @@ class EdgeSet {
  public:
   explicit EdgeSet(Charge& charge) : charge_(charge) {}
 
-  bool contains(uint32_t a, uint32_t b) const { return !slots_.empty() && slots_[find(key(a, b))] != kEmpty; }
+  bool contains(uint32_t a, uint32_t b) const {
+    return !slots_.empty() && slots_[find(key(a, b))] != kEmpty;
+  }
   /// False beyond the memory limit.
   bool add(uint32_t a, uint32_t b) {
     if (2 * (count_ + 1) > slots_.size() && !grow()) return false;
@@ -43,7 +45,9 @@ class EdgeSet {
   static uint64_t key(uint32_t a, uint32_t b) {
     return a < b ? uint64_t(a) << 32 | b : uint64_t(b) << 32 | a;
   }
-  size_t home(uint64_t k) const { return size_t((k * 0x9E3779B97F4A7C15u) >> 32) & (slots_.size() - 1); }
+  size_t home(uint64_t k) const {
+    return size_t((k * 0x9E3779B97F4A7C15u) >> 32) & (slots_.size() - 1);
+  }
   size_t find(uint64_t k) const {
     size_t i = home(k);
     while (slots_[i] != kEmpty && slots_[i] != k) i = (i + 1) & (slots_.size() - 1);
@@ -67,7 +71,8 @@ class EdgeSet {
 /// A patch while it is refined.
 class Refinement {
  public:
-  Refinement(const LocalSurface& surface, Work& work) : surface_(surface), work_(work), charge_(work), edges_(charge_) {}
+  Refinement(const LocalSurface& surface, Work& work)
+      : surface_(surface), work_(work), charge_(work), edges_(charge_) {}
 
   bool begin();
   bool findScales(const RefineOptions& options);
@@ -77,8 +82,12 @@ class Refinement {
   void finish(LocalSurface& result);
 
  private:
-  Vec3 normal(uint32_t a, uint32_t b, uint32_t c) const { return cross(at_[b] - at_[a], at_[c] - at_[a]); }
-  Vec3 normal(uint32_t t) const { return normal(mesh_.corners[3 * t], mesh_.corners[3 * t + 1], mesh_.corners[3 * t + 2]); }
+  Vec3 normal(uint32_t a, uint32_t b, uint32_t c) const {
+    return cross(at_[b] - at_[a], at_[c] - at_[a]);
+  }
+  Vec3 normal(uint32_t t) const {
+    return normal(mesh_.corners[3 * t], mesh_.corners[3 * t + 1], mesh_.corners[3 * t + 2]);
+  }
   bool wantsFlip(uint32_t h) const;
   bool flip(uint32_t h);
   bool flipPending();
@@ -89,18 +98,22 @@ class Refinement {
   const LocalSurface& surface_;
   Work& work_;
   Charge charge_;
-  TriangleMesh mesh_;            // the patch alone
-  EdgeSet edges_;                // of the patch and its surroundings
-  std::vector<Vec3> at_;         // [n]
-  std::vector<double> scale_;    // [n] how long edges should be, times 1 / density
+  TriangleMesh mesh_;              // the patch alone
+  EdgeSet edges_;                  // of the patch and its surroundings
+  std::vector<Vec3> at_;           // [n]
+  std::vector<double> scale_;      // [n] how long edges should be, times 1 / density
   std::vector<uint32_t> pending_;  // half-edges to look at
 };
 
 bool Refinement::begin() {
-  const size_t n = surface_.positions.size() / 3, corners = surface_.triangles.size() - 3 * size_t(surface_.fixedTriangles);
+  const size_t n = surface_.positions.size() / 3,
+               corners = surface_.triangles.size() - 3 * size_t(surface_.fixedTriangles);
   if (!reserve(at_, n, charge_) || !charge_.add(8 * uint64_t(corners))) return false;
-  for (size_t v = 0; v < n; ++v) at_.push_back({surface_.positions[3 * v], surface_.positions[3 * v + 1], surface_.positions[3 * v + 2]});
-  mesh_.corners.assign(surface_.triangles.begin() + ptrdiff_t(3 * size_t(surface_.fixedTriangles)), surface_.triangles.end());
+  for (size_t v = 0; v < n; ++v)
+    at_.push_back(
+        {surface_.positions[3 * v], surface_.positions[3 * v + 1], surface_.positions[3 * v + 2]});
+  mesh_.corners.assign(surface_.triangles.begin() + ptrdiff_t(3 * size_t(surface_.fixedTriangles)),
+                       surface_.triangles.end());
   for (uint32_t h = 0; h < surface_.triangles.size(); ++h)
     if (!edges_.add(surface_.triangles[h], surface_.triangles[nextInTriangle(h)])) return false;
   return findTwins(mesh_.corners, uint32_t(n), work_, mesh_.twins);
@@ -114,7 +127,8 @@ bool Refinement::wantsFlip(uint32_t h) const {
   if (a == b || c == d) return false;
   const Vec3 n1 = normal(a, b, c), n2 = normal(b, a, d);
   const double sin1 = length(n1), sin2 = length(n2);
-  const double cos1 = dot(at_[a] - at_[c], at_[b] - at_[c]), cos2 = dot(at_[a] - at_[d], at_[b] - at_[d]);
+  const double cos1 = dot(at_[a] - at_[c], at_[b] - at_[c]),
+               cos2 = dot(at_[a] - at_[d], at_[b] - at_[d]);
   // The sine of the sum. A part of it has to be left, or four points on a circle would turn for ever.
   const double sum = cos1 * sin2 + cos2 * sin1;
   if (!(sum < -1e-9 * (std::fabs(cos1) * sin2 + std::fabs(cos2) * sin1))) return false;
@@ -234,7 +248,8 @@ bool Refinement::isDivisible(uint32_t t, Vec3& centre, double& scale) const {
 
 bool Refinement::split(uint32_t t, Vec3 centre, double scale) {
   const uint32_t v = uint32_t(at_.size());
-  if (!push(at_, centre, charge_) || !push(scale_, scale, charge_) || !charge_.add(6 * 8)) return false;
+  if (!push(at_, centre, charge_) || !push(scale_, scale, charge_) || !charge_.add(6 * 8))
+    return false;
   for (int k = 0; k < 3; ++k)
     if (!edges_.add(v, mesh_.corners[3 * t + k])) return false;
   mesh_.splitTriangle(3 * t, v);
@@ -271,7 +286,8 @@ bool Refinement::settle(uint32_t times) {
   std::vector<double> weight(n - first);
   std::vector<Vec3> sum(n - first), across(n - first);
   for (uint32_t i = 0; i < times; ++i) {
-    weight.assign(n - first, 0), sum.assign(n - first, Vec3{0, 0, 0}), across.assign(n - first, Vec3{0, 0, 0});
+    weight.assign(n - first, 0), sum.assign(n - first, Vec3{0, 0, 0}),
+        across.assign(n - first, Vec3{0, 0, 0});
     for (uint32_t t = 0; t < mesh_.triangleCount(); ++t) {
       const uint32_t* v = &mesh_.corners[3 * t];
       const Vec3 across3 = normal(t), centre = (1.0 / 3) * (at_[v[0]] + at_[v[1]] + at_[v[2]]);
@@ -313,7 +329,8 @@ bool Refinement::settle(uint32_t times) {
 void Refinement::finish(LocalSurface& result) {
   result.positions.resize(3 * at_.size());
   for (size_t v = surface_.fixedVertices; v < at_.size(); ++v)
-    result.positions[3 * v] = at_[v].x, result.positions[3 * v + 1] = at_[v].y, result.positions[3 * v + 2] = at_[v].z;
+    result.positions[3 * v] = at_[v].x, result.positions[3 * v + 1] = at_[v].y,
+                         result.positions[3 * v + 2] = at_[v].z;
   result.triangles.resize(3 * size_t(surface_.fixedTriangles));
   result.triangles.insert(result.triangles.end(), mesh_.corners.begin(), mesh_.corners.end());
 }
@@ -323,15 +340,16 @@ void Refinement::finish(LocalSurface& result) {
 Status refine(LocalSurface& surface, const RefineOptions& options, Work& work) {
   if (!(options.density > 0)) return work.status();
   Refinement refinement(surface, work);
-  if (refinement.begin() && refinement.findScales(options) && refinement.flipAll() && refinement.divide(options.maxNewVertices) &&
-      refinement.settle(options.settlings))
+  if (refinement.begin() && refinement.findScales(options) && refinement.flipAll() &&
+      refinement.divide(options.maxNewVertices) && refinement.settle(options.settlings))
     refinement.finish(surface);
   return work.status();
 }
 
 Status relax(LocalSurface& surface, uint32_t settlings, Work& work) {
   Refinement refinement(surface, work);
-  if (refinement.begin() && refinement.findScales(RefineOptions{}) && refinement.flipAll() && refinement.settle(settlings))
+  if (refinement.begin() && refinement.findScales(RefineOptions{}) && refinement.flipAll() &&
+      refinement.settle(settlings))
     refinement.finish(surface);
   return work.status();
 }

@@ -24,10 +24,11 @@ inline Two load(const double* p) {
 }
 
 /// c[i][j] -= a[i] . b[j] for four rows a and two rows b of length k.
-inline void subtractTile(double* c, size_t strideC, const double* a, size_t strideA, const double* b, size_t strideB,
-                         size_t k) {
+inline void subtractTile(double* c, size_t strideC, const double* a, size_t strideA,
+                         const double* b, size_t strideB, size_t k) {
   Two s00{}, s01{}, s10{}, s11{}, s20{}, s21{}, s30{}, s31{};
-  const double *a0 = a, *a1 = a + strideA, *a2 = a1 + strideA, *a3 = a2 + strideA, *b0 = b, *b1 = b + strideB;
+  const double *a0 = a, *a1 = a + strideA, *a2 = a1 + strideA, *a3 = a2 + strideA, *b0 = b,
+               *b1 = b + strideB;
   size_t p = 0;
   for (; p + 2 <= k; p += 2) {
     const Two x = load(b0 + p), y = load(b1 + p);
@@ -58,19 +59,23 @@ inline double product(const double* a, const double* b, size_t k) {
 
 /// c[i][j] -= a[i] . b[j] for rows i of [0, m) and columns j of [0, min(n, i + ahead)), and perhaps some more
 /// columns below n. For triangles of c, `ahead` is 1; it is n for all of c.
-void subtractProducts(double* c, size_t strideC, const double* a, size_t strideA, size_t m, const double* b,
-                      size_t strideB, size_t n, size_t k, size_t ahead) {
+void subtractProducts(double* c, size_t strideC, const double* a, size_t strideA, size_t m,
+                      const double* b, size_t strideB, size_t n, size_t k, size_t ahead) {
   if (k == 0) return;
   size_t i = 0;
   for (; i + 4 <= m; i += 4) {
     const size_t end = i + 3 + ahead < n ? i + 3 + ahead : n;
     size_t j = 0;
-    for (; j + 2 <= end; j += 2) subtractTile(c + i * strideC + j, strideC, a + i * strideA, strideA, b + j * strideB, strideB, k);
+    for (; j + 2 <= end; j += 2)
+      subtractTile(c + i * strideC + j, strideC, a + i * strideA, strideA, b + j * strideB, strideB,
+                   k);
     if (j < end)
-      for (size_t q = i; q < i + 4; ++q) c[q * strideC + j] -= product(a + q * strideA, b + j * strideB, k);
+      for (size_t q = i; q < i + 4; ++q)
+        c[q * strideC + j] -= product(a + q * strideA, b + j * strideB, k);
   }
   for (; i < m; ++i)
-    for (size_t j = 0; j < n && j < i + ahead; ++j) c[i * strideC + j] -= product(a + i * strideA, b + j * strideB, k);
+    for (size_t j = 0; j < n && j < i + ahead; ++j)
+      c[i * strideC + j] -= product(a + i * strideA, b + j * strideB, k);
 }
 
 /// Factors the first c columns of a front in place: m rows of length c. False if a pivot is lost.
@@ -82,14 +87,16 @@ bool factorPanel(double* panel, size_t m, size_t c, const double* diagonal) {
     subtractProducts(at + from, c, at, c, m - from, at, c, width, from, 1);
     for (size_t j = 0; j < width; ++j) {
       double* row = at + j * c + from;
-      for (size_t q = 0; q < j; ++q) row[q] = (row[q] - product(row, at + q * c + from, q)) / at[q * c + from + q];
+      for (size_t q = 0; q < j; ++q)
+        row[q] = (row[q] - product(row, at + q * c + from, q)) / at[q * c + from + q];
       const double pivot = row[j] - product(row, row, j);
       if (!(pivot > kLeastPivot * diagonal[from + j])) return false;
       row[j] = std::sqrt(pivot);
     }
     for (size_t i = to; i < m; ++i) {
       double* row = panel + i * c + from;
-      for (size_t q = 0; q < width; ++q) row[q] = (row[q] - product(row, at + q * c + from, q)) / at[q * c + from + q];
+      for (size_t q = 0; q < width; ++q)
+        row[q] = (row[q] - product(row, at + q * c + from, q)) / at[q * c + from + q];
     }
   }
   return true;
@@ -112,12 +119,14 @@ bool SparseCholesky::factor(const SparseRows& matrix, ArrayView<const Vec3> plac
 bool SparseCholesky::addNode(ArrayView<const Place> set) {
   if (set.empty()) return true;
   const uint32_t first = uint32_t(order_.size());
-  for (const Place& p : set) rank_[p.unknown] = uint32_t(order_.size()), order_.push_back(p.unknown);
+  for (const Place& p : set)
+    rank_[p.unknown] = uint32_t(order_.size()), order_.push_back(p.unknown);
   return push(nodes_, Node{first, uint32_t(order_.size()), 0, 0, kNone, kNone, 0}, charge_);
 }
 
 /// Divides a set into two halves and what separates them, which comes last. At most log2(n) calls deep.
-bool SparseCholesky::dissect(const SparseRows& matrix, ArrayView<const Vec3> places, ArrayView<Place> set) {
+bool SparseCholesky::dissect(const SparseRows& matrix, ArrayView<const Vec3> places,
+                             ArrayView<Place> set) {
   if (set.size() <= kLeaf) return addNode(set);
   Vec3 low = places[set[0].unknown], high = low;
   for (const Place& p : set) {
@@ -163,7 +172,8 @@ bool SparseCholesky::dissect(const SparseRows& matrix, ArrayView<const Vec3> pla
       set[kept++] = set[i];
   }
   const ArrayView<Place> first = takesLeft ? set.slice(0, kept) : set.slice(0, half);
-  const ArrayView<Place> second = takesLeft ? set.slice(half, set.size() - half) : set.slice(half, kept - half);
+  const ArrayView<Place> second =
+      takesLeft ? set.slice(half, set.size() - half) : set.slice(half, kept - half);
   return dissect(matrix, places, first) && dissect(matrix, places, second) && addNode(separator);
 }
 
@@ -208,11 +218,12 @@ bool SparseCholesky::analyze(const SparseRows& matrix) {
 }
 
 bool SparseCholesky::eliminate(const SparseRows& matrix) {
-  std::vector<uint32_t> local(matrix.size());             // of unknowns in the order: row in the front
-  std::vector<Buffer<double>> updates(nodes_.size());     // what children hand up, until it is taken
+  std::vector<uint32_t> local(matrix.size());          // of unknowns in the order: row in the front
+  std::vector<Buffer<double>> updates(nodes_.size());  // what children hand up, until it is taken
   std::vector<double> diagonal;
   Charge fronts(work_);
-  if (!fronts.add(4 * uint64_t(matrix.size()) + sizeof(Buffer<double>) * nodes_.size())) return false;
+  if (!fronts.add(4 * uint64_t(matrix.size()) + sizeof(Buffer<double>) * nodes_.size()))
+    return false;
   const auto release = [&] {
     for (const Buffer<double>& update : updates) work_.release(sizeof(double) * update.size());
   };

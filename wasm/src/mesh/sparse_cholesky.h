@@ -45,10 +45,10 @@ class SparseCholesky {
  private:
   // Unknowns that are eliminated together.
   struct Node {
-    uint32_t first, last;        // [first, last) in the new order
-    uint32_t rowsFrom, rowsTo;   // in rows_: later unknowns that it changes, ascending
+    uint32_t first, last;          // [first, last) in the new order
+    uint32_t rowsFrom, rowsTo;     // in rows_: later unknowns that it changes, ascending
     uint32_t firstChild, sibling;  // nodes whose update it takes first
-    size_t panel;                // in panels_: its columns of L, by rows of the node's own unknowns and of rows_
+    size_t panel;  // in panels_: its columns of L, by rows of the node's own unknowns and of rows_
     uint32_t columns() const { return last - first; }
     uint32_t below() const { return rowsTo - rowsFrom; }
   };
@@ -65,11 +65,11 @@ class SparseCholesky {
   Work& work_;
   Charge charge_;
   bool isDefinite_ = true;
-  std::vector<uint32_t> order_;    // [n] unknowns in the order of elimination
-  std::vector<uint32_t> rank_;     // [n] place of each unknown in it
-  std::vector<uint32_t> side_;     // [n] stamp of the half that the unknown was put in last
+  std::vector<uint32_t> order_;  // [n] unknowns in the order of elimination
+  std::vector<uint32_t> rank_;   // [n] place of each unknown in it
+  std::vector<uint32_t> side_;   // [n] stamp of the half that the unknown was put in last
   uint32_t stamp_ = 0;
-  std::vector<Node> nodes_;        // children before parents
+  std::vector<Node> nodes_;  // children before parents
   std::vector<uint32_t> rows_;
   Buffer<double> panels_;
   std::vector<Vec3> permuted_;
