@@ -181,15 +181,22 @@ bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t>
       result.isBoundary[triangles[h]] = result.isBoundary[triangles[nextInTriangle(h)]] = 1;
   if (!makeDelaunay(surface, work)) return false;
 
+  // Areas of Voronoi cells, which in a Delaunay triangulation are positive: with them the curvature of a sphere
+  // comes out exactly at every vertex, however irregular. Corners without area would make the surface infinitely
+  // stiff there.
   result.mass.assign(n, 0);
   double total = 0;
+  std::vector<double> third(n, 0.0);
   for (uint32_t h = 0; h < 3 * m; ++h) {
+    const uint32_t a = surface.mesh.corners[h], b = surface.mesh.corners[nextInTriangle(h)];
+    const double cell = surface.cotangent(h) * surface.lengths[h] * surface.lengths[h] / 8;
+    result.mass[a] += cell, result.mass[b] += cell;
     const double share = surface.doubleArea(h) / 6;
-    result.mass[surface.mesh.corners[h]] += share, total += share;
+    third[a] += share, total += share;
   }
   const double mean = total > 0 ? total / n : 1;
-  // A vertex without area would make its neighbours infinitely stiff.
-  for (double& area : result.mass) area = std::fmax(area / mean, 1e-6);
+  for (uint32_t v = 0; v < n; ++v)
+    result.mass[v] = std::fmax(std::fmax(result.mass[v], 0.2 * third[v]) / mean, 1e-6);
   return assemble(surface, n, {}, work, result.whole) &&
          assemble(surface, n, result.isBoundary, work, result.inner);
 }
