@@ -1,0 +1,135 @@
+#include "mesh/fair.h"
+
+#include <cmath>
+
+#include "base/charge.h"
+#include "base/vec.h"
+#include "mesh/fair_system.h"
+
+namespace sf {
+namespace {
+
+// Places are in a box of unit size. A solution beyond this is none.
+constexpr double kFarthest = 1e3;
+// A step shorter than this, in edges of the patch, is the last one.
+constexpr double kLastStep = 0.02;
+
+/// A surface in a box of unit size: neither large nor small coordinates, nor a place far from the origin, change
+/// what comes out.
+class UnitBox {
+ public:
+  explicit UnitBox(ArrayView<const double> positions) {
+    const size_t n = positions.size() / 3;
+    for (size_t a = 0; a < 3; ++a) {
+      double low = positions[a], high = low;
+      for (size_t v = 1; v < n; ++v) low = std::fmin(low, positions[3 * v + a]), high = std::fmax(high, positions[3 * v + a]);
+      middle_[a] = low + (high - low) / 2, extent_ = std::fmax(extent_, high - low);
+    }
+  }
+  bool isPoint() const { return !(extent_ > 0) || !std::isfinite(extent_); }
+  Vec3 in(const double* p) const {
+    return {(p[0] - middle_[0]) / extent_, (p[1] - middle_[1]) / extent_, (p[2] - middle_[2]) / extent_};
+  }
+  void out(Vec3 q, double* p) const {
+    p[0] = middle_[0] + extent_ * q.x, p[1] = middle_[1] + extent_ * q.y, p[2] = middle_[2] + extent_ * q.z;
+  }
+
+ private:
+  double middle_[3] = {0, 0, 0}, extent_ = 0;
+};
+
+class Fairing {
+ public:
+  Fairing(const LocalSurface& surface, Work& work) : surface_(surface), work_(work) {}
+
+  /// Solves `rounds` times, of the order asked for or the next lower one that works. Returns that order.
+  uint32_t solve(const FairOptions& options, std::vector<Vec3>& at);
+  /// Steps to the least variation of curvature, as long as they lead there.
+  void leastVariation(uint32_t steps, std::vector<Vec3>& at);
+
+ private:
+  bool measure(ArrayView<const Vec3> at);
+  bool isTame(ArrayView<const Vec3> at) const {
+    for (const Vec3& p : at)
+      if (!(std::fabs(p.x) < kFarthest && std::fabs(p.y) < kFarthest && std::fabs(p.z) < kFarthest)) return false;
+    return true;
+  }
+
+  const LocalSurface& surface_;
+  Work& work_;
+  std::vector<double> flat_;
+  Laplacian laplacian_;
+};
+
+bool Fairing::measure(ArrayView<const Vec3> at) {
+  flat_.clear();
+  for (const Vec3& p : at) flat_.insert(flat_.end(), {p.x, p.y, p.z});
+  return buildLaplacian(flat_, surface_.triangles, work_, laplacian_);
+}
+
+uint32_t Fairing::solve(const FairOptions& options, std::vector<Vec3>& at) {
+  const std::vector<Vec3> before = at;
+  uint32_t order = options.order < 3 ? options.order : 3;
+  for (uint32_t round = 0; round < options.rounds && order > 0;) {
+    if (!measure(at)) return 0;
+    FairSystem system(laplacian_, surface_.fixedVertices, work_);
+    const bool isGood = system.solve(order, at) && isTame(at);
+    if (!work_.going()) return 0;
+    if (isGood) {
+      ++round;
+      continue;
+    }
+    // From the beginning: what a system without a good solution gave is no better than the patch.
+    --order, round = 0;
+    at = before;
+  }
+  return order;
+}
+
+void Fairing::leastVariation(uint32_t steps, std::vector<Vec3>& at) {
+  std::vector<Vec3> best = at;
+  double least = 0;
+  for (uint32_t i = 0, halvings = 0; i <= steps; ++i) {
+    if (!measure(at)) return;
+    FairSystem system(laplacian_, surface_.fixedVertices, work_);
+    const double now = system.variation(at, surface_.triangles);
+    if (i > 0 && !(now < least && isTame(at))) {
+      // Too far: half of the step, or none.
+      if (++halvings > 2) break;
+      for (size_t v = surface_.fixedVertices; v < at.size(); ++v) at[v] = 0.5 * (at[v] + best[v]);
+      continue;
+    }
+    least = now, best = at;
+    double most;
+    if (i == steps || !system.stepToLeastVariation(at, most)) break;
+    if (most < kLastStep * std::sqrt(1.0 / double(at.size()))) steps = i + 1;
+  }
+  at = best;
+}
+
+}  // namespace
+
+Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairness& result) {
+  result = {};
+  const size_t n = surface.positions.size() / 3;
+  const UnitBox box(surface.positions);
+  if (n <= surface.fixedVertices || box.isPoint()) return work.status();
+  Charge charge(work);
+  if (!charge.add(n * 300)) return work.status();
+  std::vector<Vec3> at(n);
+  for (size_t v = 0; v < n; ++v) at[v] = box.in(&surface.positions[3 * v]);
+  Fairing fairing(surface, work);
+  const uint32_t order = fairing.solve(options, at);
+  if (order == 3 && options.curvatureSteps > 0) fairing.leastVariation(options.curvatureSteps, at);
+  if (!work.going() || order == 0) return work.status();
+  result.order = order;
+  for (size_t v = surface.fixedVertices; v < n; ++v) {
+    double* p = &surface.positions[3 * v];
+    const Vec3 before{p[0], p[1], p[2]};
+    box.out(at[v], p);
+    result.moved = std::fmax(result.moved, distance(before, {p[0], p[1], p[2]}));
+  }
+  return work.status();
+}
+
+}  // namespace sf
