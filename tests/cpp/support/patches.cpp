@@ -135,54 +135,51 @@ Sheet graphSheet(uint32_t n, const std::function<double(double, double)>& height
   return sheet;
 }
 
-Hole cutHole(const Sheet& sheet, const std::function<bool(Vec3)>& region, uint32_t rings) {
+namespace {
+
+using Edges = std::map<std::pair<uint32_t, uint32_t>, size_t>;
+size_t nextCorner(size_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+
+/// The triangle of each directed edge.
+Edges edgesOf(const std::vector<uint32_t>& triangles) {
+  Edges edges;
+  for (size_t h = 0; h < triangles.size(); ++h) edges[{triangles[h], triangles[nextCorner(h)]}] = h / 3;
+  return edges;
+}
+
+}  // namespace
+
+Hole fillLoops(const Sheet& mesh, const std::vector<std::vector<uint32_t>>& loops, uint32_t rings) {
   Hole hole;
-  std::vector<uint32_t> kept;
-  for (size_t t = 0; t < sheet.triangles.size(); t += 3) {
-    const uint32_t* v = &sheet.triangles[t];
-    const bool isCut = region((1.0 / 3) * (sheet.at(v[0]) + sheet.at(v[1]) + sheet.at(v[2])));
-    std::vector<uint32_t>& to = isCut ? hole.cutAway : kept;
-    to.insert(to.end(), v, v + 3);
-  }
-  // Rim edges are edges of both; the patch runs along them as what was cut away did.
-  std::map<uint32_t, uint32_t> nextOnRim;
-  std::map<uint32_t, Vec3> normals;
-  std::map<std::pair<uint32_t, uint32_t>, size_t> keptEdges;
-  for (size_t h = 0; h < kept.size(); ++h)
-    keptEdges[{kept[h], kept[h % 3 == 2 ? h - 2 : h + 1]}] = h / 3;
-  for (size_t h = 0; h < hole.cutAway.size(); ++h) {
-    const uint32_t a = hole.cutAway[h], b = hole.cutAway[h % 3 == 2 ? h - 2 : h + 1];
-    const auto found = keptEdges.find({b, a});
-    if (found == keptEdges.end()) continue;
-    REQUIRE(nextOnRim.count(a) == 0);
-    const uint32_t* v = &kept[3 * found->second];
-    nextOnRim[a] = b,
-    normals[a] = cross(sheet.at(v[1]) - sheet.at(v[0]), sheet.at(v[2]) - sheet.at(v[0]));
-  }
+  const std::vector<uint32_t>& kept = mesh.triangles;
+  const Edges edges = edgesOf(kept);
   std::vector<Vec3> positions;
   std::vector<double> boundaryNormals;
   std::vector<uint32_t> starts{0}, loopVertices;
-  std::set<uint32_t> seen;
-  for (const auto& [first, unused] : nextOnRim) {
-    (void)unused;
-    if (seen.count(first)) continue;
-    for (uint32_t v = first; seen.insert(v).second; v = nextOnRim.at(v)) {
-      const Vec3 n = normals.at(v);
-      positions.push_back(sheet.at(v)), loopVertices.push_back(v);
-      boundaryNormals.insert(boundaryNormals.end(), {n.x, n.y, n.z});
+  std::set<std::pair<uint32_t, uint32_t>> rimEdges;
+  for (const std::vector<uint32_t>& loop : loops) {
+    for (size_t i = 0; i < loop.size(); ++i) {
+      const uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
+      const auto beside = edges.find({b, a});
+      Vec3 n{std::nan(""), std::nan(""), std::nan("")};
+      if (beside != edges.end()) {
+        const uint32_t* v = &kept[3 * beside->second];
+        n = cross(mesh.at(v[1]) - mesh.at(v[0]), mesh.at(v[2]) - mesh.at(v[0]));
+      }
+      positions.push_back(mesh.at(a)), loopVertices.push_back(a), rimEdges.insert({a, b});
+      push(boundaryNormals, n);
     }
     starts.push_back(uint32_t(positions.size()));
   }
-  REQUIRE(positions.size() >= 3);
   hole.rim = uint32_t(positions.size());
-  sf::LoopSet loops(positions, starts);
+  sf::LoopSet set(positions, starts);
   sf::SpanOptions options;
   options.areaWeight = std::nan("");
   options.boundaryNormals = boundaryNormals;
   options.bestSoFar = true;
   sf::Span span;
   sf::Work work;
-  REQUIRE(sf::spanLoops(loops, options, work, span).ok());
+  REQUIRE(sf::spanLoops(set, options, work, span).ok());
   REQUIRE(span.found);
   REQUIRE(span.inserted.empty());
 
@@ -197,7 +194,7 @@ Hole cutHole(const Sheet& sheet, const std::function<bool(Vec3)>& region, uint32
   std::map<uint32_t, uint32_t> number;
   const auto numberOf = [&](uint32_t v) {
     const auto [at, isNew] = number.insert({v, uint32_t(hole.vertices.size())});
-    if (isNew) hole.vertices.push_back(v), push(hole.surface.positions, sheet.at(v));
+    if (isNew) hole.vertices.push_back(v), push(hole.surface.positions, mesh.at(v));
     return at->second;
   };
   for (const uint32_t v : loopVertices) numberOf(v);
@@ -206,7 +203,7 @@ Hole cutHole(const Sheet& sheet, const std::function<bool(Vec3)>& region, uint32
     if (!near.count(kept[t]) || !near.count(kept[t + 1]) || !near.count(kept[t + 2])) continue;
     for (size_t k = 0; k < 3; ++k) {
       hole.surface.triangles.push_back(numberOf(kept[t + k]));
-      sum += distance(sheet.at(kept[t + k]), sheet.at(kept[t + (k + 1) % 3]));
+      sum += distance(mesh.at(kept[t + k]), mesh.at(kept[t + (k + 1) % 3]));
     }
   }
   hole.surface.fixedVertices = uint32_t(hole.vertices.size());
@@ -214,15 +211,42 @@ Hole cutHole(const Sheet& sheet, const std::function<bool(Vec3)>& region, uint32
   if (hole.surface.fixedTriangles > 0) hole.meanEdge = sum / double(hole.surface.triangles.size());
   // The span is wound consistently, one way or the other.
   bool runsAlong = false;
-  for (size_t h = 0; h < span.triangles.size(); ++h) {
-    const uint32_t a = span.triangles[h], b = span.triangles[h % 3 == 2 ? h - 2 : h + 1];
-    runsAlong = runsAlong || nextOnRim.at(loopVertices[a]) == loopVertices[b];
+  for (size_t h = 0; h < span.triangles.size(); ++h)
+    runsAlong = runsAlong || rimEdges.count({loopVertices[span.triangles[h]], loopVertices[span.triangles[nextCorner(h)]]});
+  for (size_t t = 0; t < span.triangles.size(); t += 3)
+    for (const size_t k : {size_t(0), size_t(runsAlong ? 1 : 2), size_t(runsAlong ? 2 : 1)})
+      hole.surface.triangles.push_back(number.at(loopVertices[span.triangles[t + k]]));
+  return hole;
+}
+
+Hole cutHole(const Sheet& sheet, const std::function<bool(Vec3)>& region, uint32_t rings) {
+  Sheet rest;
+  rest.positions = sheet.positions;
+  std::vector<uint32_t> cutAway;
+  for (size_t t = 0; t < sheet.triangles.size(); t += 3) {
+    const uint32_t* v = &sheet.triangles[t];
+    const bool isCut = region((1.0 / 3) * (sheet.at(v[0]) + sheet.at(v[1]) + sheet.at(v[2])));
+    std::vector<uint32_t>& to = isCut ? cutAway : rest.triangles;
+    to.insert(to.end(), v, v + 3);
   }
-  for (size_t t = 0; t < span.triangles.size(); t += 3) {
-    const uint32_t* v = &span.triangles[t];
-    hole.surface.triangles.insert(hole.surface.triangles.end(),
-                                  {v[0], v[runsAlong ? 1 : 2], v[runsAlong ? 2 : 1]});
+  // Rim edges are edges of both; the patch runs along them as what was cut away did.
+  std::map<uint32_t, uint32_t> next;
+  const Edges edges = edgesOf(rest.triangles);
+  for (size_t h = 0; h < cutAway.size(); ++h) {
+    const uint32_t a = cutAway[h], b = cutAway[nextCorner(h)];
+    if (!edges.count({b, a})) continue;
+    REQUIRE(next.count(a) == 0);
+    next[a] = b;
   }
+  std::vector<std::vector<uint32_t>> loops;
+  std::set<uint32_t> seen;
+  for (const auto& [first, second] : next) {
+    if (seen.count(first) || second == first) continue;
+    loops.emplace_back();
+    for (uint32_t v = first; seen.insert(v).second; v = next.at(v)) loops.back().push_back(v);
+  }
+  Hole hole = fillLoops(rest, loops, rings);
+  hole.cutAway = cutAway;
   return hole;
 }
 

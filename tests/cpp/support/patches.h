@@ -38,6 +38,10 @@ struct Hole {
   uint32_t rim = 0;                // vertices on it
 };
 
+/// Fills the loops of one hole of a mesh with spanLoops.
+///   loops  vertices as the patch runs along them
+Hole fillLoops(const Sheet& mesh, const std::vector<std::vector<uint32_t>>& loops, uint32_t rings = 5);
+
 /// Cuts away the triangles whose centroid is in a region, which must leave simple rims of one hole, and fills it
 /// with spanLoops. `rings` of triangles around it are kept.
 Hole cutHole(const Sheet& sheet, const std::function<bool(sf::Vec3)>& region, uint32_t rings = 5);

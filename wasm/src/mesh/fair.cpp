@@ -5,6 +5,7 @@
 #include "base/charge.h"
 #include "base/vec.h"
 #include "mesh/fair_system.h"
+#include "triangles/triangle_mesh.h"
 
 namespace sf {
 namespace {
@@ -130,6 +131,60 @@ Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairn
     result.moved = std::fmax(result.moved, distance(before, {p[0], p[1], p[2]}));
   }
   return work.status();
+}
+
+bool roughness(const LocalSurface& surface, Work& work, double& result) {
+  result = 0;
+  const UnitBox box(surface.positions);
+  if (surface.fixedTriangles == 0 || box.isPoint()) return work.going();
+  const size_t n = surface.positions.size() / 3;
+  Charge charge(work);
+  if (!charge.add(n * 150 + size_t(surface.fixedTriangles) * 12)) return false;
+  std::vector<Vec3> at(n);
+  std::vector<double> flat;
+  for (size_t v = 0; v < n; ++v) {
+    at[v] = box.in(&surface.positions[3 * v]);
+    flat.insert(flat.end(), {at[v].x, at[v].y, at[v].z});
+  }
+  const ArrayView<const uint32_t> around = ArrayView<const uint32_t>(surface.triangles).slice(0, 3 * size_t(surface.fixedTriangles));
+  Laplacian laplacian;
+  if (!buildLaplacian(flat, around, work, laplacian)) return false;
+  FairSystem system(laplacian, uint32_t(n), work);
+  system.variation(at, around);
+  double sum = 0;
+  size_t count = 0;
+  for (size_t h = 0; h < around.size(); ++h) {
+    const uint32_t a = around[h], b = around[nextInTriangle(uint32_t(h))];
+    if (laplacian.isBoundary[a] || laplacian.isBoundary[b]) continue;
+    sum += std::fabs(system.curvature(a) - system.curvature(b)) * distance(at[a], at[b]), ++count;
+  }
+  // Curvatures are in units of the mean mass: times its inverse they would be those of the unit box.
+  if (count > 0) result = sum / double(count) / laplacian.unit;
+  return work.going();
+}
+
+bool isFlat(const LocalSurface& surface, double tolerance) {
+  // Vertices of the patch, and of triangles with a side at the rim.
+  const std::vector<uint32_t>& t = surface.triangles;
+  const size_t n = surface.positions.size() / 3, fixed = 3 * size_t(surface.fixedTriangles);
+  std::vector<uint8_t> isPatch(n, 0), counts(n, 0);
+  for (size_t h = fixed; h < t.size(); ++h) isPatch[t[h]] = counts[t[h]] = 1;
+  for (size_t h = 0; h < fixed; ++h)
+    if (isPatch[t[h]] && isPatch[t[nextInTriangle(uint32_t(h))]]) counts[t[prevInTriangle(uint32_t(h))]] = 1;
+  const auto at = [&](uint32_t v) { return Vec3{surface.positions[3 * v], surface.positions[3 * v + 1], surface.positions[3 * v + 2]}; };
+  Vec3 across{0, 0, 0}, middle{0, 0, 0};
+  double number = 0, extent = 0;
+  for (size_t h = fixed; h < t.size(); h += 3) across = across + cross(at(t[h + 1]) - at(t[h]), at(t[h + 2]) - at(t[h]));
+  for (uint32_t v = 0; v < n; ++v)
+    if (counts[v]) middle = middle + at(v), ++number;
+  const double l = length(across);
+  if (number == 0 || !(l > 0)) return false;
+  middle = (1 / number) * middle, across = (1 / l) * across;
+  for (uint32_t v = 0; v < n; ++v)
+    if (counts[v]) extent = std::fmax(extent, distance(at(v), middle));
+  for (uint32_t v = 0; v < n; ++v)
+    if (counts[v] && std::fabs(dot(at(v) - middle, across)) > tolerance * extent) return false;
+  return true;
 }
 
 }  // namespace sf

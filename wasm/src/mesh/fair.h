@@ -31,9 +31,9 @@ struct Fairness {
 /// Errors: OutOfMemory, Stopped; the surface is then as it was.
 Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairness& result);
 
-/// How rough the surroundings are, as an angle in radians: 0 for smooth surfaces, however curved.
-/// O(n) time; 0 where there are no surroundings.
-double roughness(const LocalSurface& surface);
+/// How rough the surroundings are: by how much the mean curvature differs from vertex to vertex, as an angle in
+/// radians. Near 0 for smooth surfaces, however curved. 0 without surroundings. O(n) time. False when the work ended.
+bool roughness(const LocalSurface& surface, Work& work, double& result);
 
 /// Whether the rim and the triangles along it lie in one plane, within `tolerance` of their extent: a patch
 /// without vertices of its own is then exact, and nothing should bend it.

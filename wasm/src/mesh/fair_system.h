@@ -27,6 +27,8 @@ class FairSystem {
   /// How much the mean curvature varies over the surface: the integral of its squared gradient.
   ///   triangles  [3m] of the surface
   double variation(ArrayView<const Vec3> x, ArrayView<const uint32_t> triangles);
+  /// The mean curvature at a vertex, times two; 0 on the boundary. After variation().
+  double curvature(uint32_t v) const { return curvature_[v]; }
   /// One step of Gauss-Newton towards the least variation, along the normals. After variation(x). Returns like solve.
   ///   x     [n] moved
   ///   most  out: the largest distance moved

@@ -195,6 +195,7 @@ bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t>
     third[a] += share, total += share;
   }
   const double mean = total > 0 ? total / n : 1;
+  result.unit = mean;
   for (uint32_t v = 0; v < n; ++v)
     result.mass[v] = std::fmax(std::fmax(result.mass[v], 0.2 * third[v]) / mean, 1e-6);
   return assemble(surface, n, {}, work, result.whole) &&

@@ -20,7 +20,8 @@ struct Laplacian {
   SparseRows whole;
   /// The same over triangles with no vertex on the boundary.
   SparseRows inner;
-  std::vector<double> mass;  // [n] area about each vertex, > 0; their mean is 1
+  std::vector<double> mass;  // [n] area about each vertex, > 0, in units
+  double unit = 1;           // the mean area about a vertex
   std::vector<uint8_t>
       isBoundary;  // [n] vertices whose triangles do not go all around them, or that have none
 };
@@ -28,7 +29,7 @@ struct Laplacian {
 /// Builds it. O(m) time but for flips, of which there are few on meshes that are nearly Delaunay.
 ///   positions  [3n]
 ///   triangles  [3m] consistently wound; degenerate ones do no harm
-/// Differs in scale from the area by nothing; `mass` is in units of the mean. False when the work ended.
+/// False when the work ended.
 bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t> triangles,
                     Work& work, Laplacian& result);
 
