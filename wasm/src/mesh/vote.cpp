@@ -46,7 +46,8 @@ void placeVoters(const Rims& rims, const UnitScale& at, Voters& voters) {
     for (uint32_t i = 0; i < n; ++i) {
       RimSide& side = voters.sides[first + i];
       radius = std::max(radius, distance(centre, side.at));
-      const Vec3 a = at(rims.vertices[first + i]), b = at(rims.vertices[rims.nextEdge(r, first + i)]);
+      const Vec3 a = at(rims.vertices[first + i]),
+                 b = at(rims.vertices[rims.nextEdge(r, first + i)]);
       area = area + 0.5 * cross(a - centre, b - centre);
       length += voters.lengths[first + i];
       Vec3 ahead = out[first + i];
@@ -91,8 +92,8 @@ bool castVotes(const MeshView& mesh, const Rims& rims, Work& work, Charge& charg
   result.openness.assign(rims.count(), 0);
   for (uint32_t r = 0; r < rims.count(); ++r) {
     const uint32_t first = rims.starts[r], n = rims.starts[r + 1] - first;
-    const double whole = std::accumulate(voters.lengths.begin() + first,
-                                         voters.lengths.begin() + first + n, 0.0);
+    const double whole =
+        std::accumulate(voters.lengths.begin() + first, voters.lengths.begin() + first + n, 0.0);
     for (uint32_t e = first; e < first + n; ++e) {
       const RimPartner best = tree.best(e, kReach * voters.balls[r].radius);
       if (!work.going()) return false;
@@ -102,7 +103,7 @@ bool castVotes(const MeshView& mesh, const Rims& rims, Work& work, Charge& charg
         continue;
       }
       const uint32_t other = voters.sides[best.edge].rim;
-      if (other == r) continue;
+      if (other == r || !(share > 0)) continue;
       RimVote ballot{r, other, share, 0, 0, false};
       if (r > other) ballot = {other, r, 0, share, 0, false};
       if (!push(ballots, ballot, temporary)) return false;
@@ -116,7 +117,9 @@ bool castVotes(const MeshView& mesh, const Rims& rims, Work& work, Charge& charg
   });
   for (size_t i = 0, j; i < ballots.size(); i = j) {
     RimVote sum = ballots[i];
-    for (j = i + 1; j < ballots.size() && ballots[j].first == sum.first && ballots[j].second == sum.second; ++j) {
+    for (j = i + 1;
+         j < ballots.size() && ballots[j].first == sum.first && ballots[j].second == sum.second;
+         ++j) {
       sum.shareOfFirst += ballots[j].shareOfFirst;
       sum.shareOfSecond += ballots[j].shareOfSecond;
     }
