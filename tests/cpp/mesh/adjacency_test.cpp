@@ -52,14 +52,15 @@ std::string faultOf(const TestMesh& mesh, const Adjacency& a) {
       duplicate.push_back(f);
     else
       isOut = false;
-    if (isOut != (a.corners[3 * f] == kNone) || isOut != (a.component[f] == kNone)) return "left out";
+    if (isOut != (a.corners[3 * f] == kNone) || isOut != (a.component[f] == kNone))
+      return "left out";
     if (isOut) continue;
     for (uint32_t i = 0; i < 3; ++i) ++facesAt[std::minmax(v[i], v[(i + 1) % 3])];
     const uint32_t k = a.turned[f] ? 2 : 1;
     if (a.tail(3 * f) != v[0] || a.tail(3 * f + 1) != v[k] || a.tail(3 * f + 2) != v[3 - k])
       return "corners";
   }
-  const Defect *d = defectOf(a, DefectKind::DuplicateFace);
+  const Defect* d = defectOf(a, DefectKind::DuplicateFace);
   if ((d ? d->faces : List{}) != duplicate) return "duplicate faces";
   d = defectOf(a, DefectKind::DegenerateFace);
   if ((d ? d->faces : List{}) != degenerate) return "degenerate faces";
@@ -85,7 +86,8 @@ std::string faultOf(const TestMesh& mesh, const Adjacency& a) {
     }
     if (a.isCut(h) || isSeam || count < 2) return "a twin too many";
     if (a.twins[g] != h || g / 3 == h / 3) return "a twin's twin";
-    if (a.corners[g] != a.corners[nextInTriangle(h)] || a.corners[h] != a.corners[nextInTriangle(g)])
+    if (a.corners[g] != a.corners[nextInTriangle(h)] ||
+        a.corners[h] != a.corners[nextInTriangle(g)])
       return "twins not wound alike";
     if (a.component[g / 3] != a.component[h / 3]) return "a component torn";
   }
@@ -133,14 +135,16 @@ std::string faultOf(const TestMesh& mesh, const Adjacency& a) {
 
 uint32_t openHalves(const Adjacency& a) {
   uint32_t count = 0;
-  for (uint32_t h = 0; h < a.twins.size(); ++h) count += a.corners[h] != kNone && a.twins[h] == kNone;
+  for (uint32_t h = 0; h < a.twins.size(); ++h)
+    count += a.corners[h] != kNone && a.twins[h] == kNone;
   return count;
 }
 
 }  // namespace
 
 TEST_CASE("buildAdjacency: closed meshes have all twins, one component and no defect") {
-  for (const TestMesh& mesh : {sphereMesh(0), sphereMesh(3), torusMesh(7, 11), boxMesh(1), boxMesh(4)}) {
+  for (const TestMesh& mesh :
+       {sphereMesh(0), sphereMesh(3), torusMesh(7, 11), boxMesh(1), boxMesh(4)}) {
     const Adjacency a = adjacencyOf(mesh);
     CHECK(faultOf(mesh, a) == "");
     CHECK(openHalves(a) == 0);
@@ -163,8 +167,11 @@ TEST_CASE("buildAdjacency: faces in any order, at any scale, far away") {
   const TestMesh holes = without(torusMesh(12, 20), isNear({1, 0, 0.4}, 0.3));
   for (const double scale : {1.0, 1e-300, 1e-150, 1e149}) {
     std::vector<uint32_t> from;
-    TestMesh mesh = shuffled(
-        mapped(holes, [&](Vec3 p) { return scale * (p + Vec3{7, -3, 5}); }), random, from);
+    TestMesh mesh = shuffled(mapped(holes,
+                                    [&](Vec3 p) {
+                                      return scale * (p + Vec3{7, -3, 5});
+                                    }),
+                             random, from);
     // A third of the faces turned over: those are told, whatever the scale.
     List turned;
     for (uint32_t f = 0; f < mesh.faceCount(); ++f) {
@@ -336,7 +343,8 @@ TEST_CASE("buildAdjacency: ends at its limits, and gives all memory back") {
     }
     CHECK(work.used() == 0);
   }
-  Work stopped(size_t(-1), [](void*, double, double, double) { return false; }, nullptr);
+  Work stopped(
+      size_t(-1), [](void*, double, double, double) { return false; }, nullptr);
   stopped.report();
   Charge charge(stopped);
   Adjacency a;

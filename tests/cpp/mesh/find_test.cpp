@@ -57,12 +57,12 @@ std::string faultOf(const TestMesh& mesh, const Found& found) {
       if (a.twins[h] != kNone || a.corners[h] == kNone) return "a half-edge inside";
       const bool isAgainst = a.tail(h) == v && a.head(h) == w;
       if (isAgainst ? !r.rims[i].crossesSeam : a.tail(h) != w || a.head(h) != v) return "an edge";
-      if (a.component[h / 3] != r.rims[i].component) return "a component";
+      if (e == r.starts[i] && a.component[h / 3] != r.rims[i].component) return "a component";
       length += distance(mesh.at(v), mesh.at(w));
       const Vec3 n = cross(mesh.at(a.tail(h + 1 - h % 3)) - mesh.at(a.tail(h - h % 3)),
                            mesh.at(a.tail(h + 2 - h % 3)) - mesh.at(a.tail(h - h % 3)));
-      if (sf::length(n) > 1e-6 && sf::length((1 / sf::length(n)) * n - r.normals[e]) > 1e-9 && !isAgainst &&
-          !r.rims[i].crossesSeam)
+      if (sf::length(n) > 1e-6 && sf::length((1 / sf::length(n)) * n - r.normals[e]) > 1e-9 &&
+          !isAgainst && !r.rims[i].crossesSeam)
         return "a normal";
       for (const uint32_t u : loop) diameter = std::max(diameter, distance(mesh.at(u), mesh.at(v)));
     }
@@ -86,7 +86,8 @@ std::vector<size_t> sizesOf(const Rims& rims) {
 }
 
 /// A fan of triangles around vertex 0, in the plane or not, from `first` degrees over `count` steps.
-void addFan(TestMesh& mesh, double first, double step, uint32_t count, double z = 0, bool isTurned = false) {
+void addFan(TestMesh& mesh, double first, double step, uint32_t count, double z = 0,
+            bool isTurned = false) {
   uint32_t last = kNone;
   for (uint32_t i = 0; i <= count; ++i) {
     const double u = (first + i * step) * kPi / 180;
@@ -168,7 +169,8 @@ TEST_CASE("findRims: two holes that touch in a vertex are two") {
   const TestMesh sheet = saddleMesh(8, 0.2);
   // Squares on both sides of the vertex in the middle.
   const TestMesh mesh = without(sheet, [](Vec3 p) {
-    return (p.x > 0 && p.y > 0 && p.x < 0.5 && p.y < 0.5) || (p.x < 0 && p.y < 0 && p.x > -0.5 && p.y > -0.5);
+    return (p.x > 0 && p.y > 0 && p.x < 0.5 && p.y < 0.5) ||
+           (p.x < 0 && p.y < 0 && p.x > -0.5 && p.y > -0.5);
   });
   const Found found = find(mesh);
   CHECK(faultOf(mesh, found) == "");

@@ -47,7 +47,9 @@ TestMesh sphereMesh(uint32_t levels) {
     for (const double t : {-g, g})
       for (const Vec3 p : {Vec3{0, s, t}, Vec3{s, t, 0}, Vec3{t, 0, s}}) mesh.addVertex(unit(p));
   const double edge = 2 / std::sqrt(1 + g * g) * 1.01;
-  const auto isEdge = [&](uint32_t a, uint32_t b) { return distance(mesh.at(a), mesh.at(b)) < edge; };
+  const auto isEdge = [&](uint32_t a, uint32_t b) {
+    return distance(mesh.at(a), mesh.at(b)) < edge;
+  };
   for (uint32_t a = 0; a < 12; ++a)
     for (uint32_t b = a + 1; b < 12; ++b)
       for (uint32_t c = b + 1; c < 12; ++c) {
@@ -97,7 +99,7 @@ TestMesh boxMesh(uint32_t n) {
   Welder weld(mesh);
   const auto side = [&](Vec3 normal, Vec3 u, Vec3 v) {
     const auto at = [&](uint32_t i, uint32_t j) {
-      return weld(normal + (2.0 * i / n - 1) * u + (2.0 * j / n - 1) * v);
+      return weld(normal + (2.0 * i - n) / n * u + (2.0 * j - n) / n * v);
     };
     for (uint32_t i = 0; i < n; ++i)
       for (uint32_t j = 0; j < n; ++j) {
@@ -216,7 +218,8 @@ TestMesh together(const TestMesh& a, const TestMesh& b) {
 
 TestMesh turnedOver(const TestMesh& mesh) {
   TestMesh result = mesh;
-  for (size_t i = 0; i < mesh.faces.size(); i += 3) std::swap(result.faces[i + 1], result.faces[i + 2]);
+  for (size_t i = 0; i < mesh.faces.size(); i += 3)
+    std::swap(result.faces[i + 1], result.faces[i + 2]);
   return result;
 }
 
@@ -234,7 +237,8 @@ TestMesh mapped(const TestMesh& mesh, const std::function<Vec3(Vec3)>& map) {
 
 TestMesh shuffled(const TestMesh& mesh, Random& random, std::vector<uint32_t>& from) {
   const auto shuffle = [&](std::vector<uint32_t>& list) {
-    for (uint32_t i = uint32_t(list.size()); i > 1; --i) std::swap(list[i - 1], list[random.below(i)]);
+    for (uint32_t i = uint32_t(list.size()); i > 1; --i)
+      std::swap(list[i - 1], list[random.below(i)]);
   };
   from.resize(mesh.vertexCount());
   for (uint32_t v = 0; v < from.size(); ++v) from[v] = v;
@@ -246,7 +250,8 @@ TestMesh shuffled(const TestMesh& mesh, Random& random, std::vector<uint32_t>& f
   shuffle(order);
   for (const uint32_t f : order) {
     const uint32_t first = random.below(3);
-    for (uint32_t i = 0; i < 3; ++i) result.faces.push_back(to[mesh.faces[3 * f + (first + i) % 3]]);
+    for (uint32_t i = 0; i < 3; ++i)
+      result.faces.push_back(to[mesh.faces[3 * f + (first + i) % 3]]);
   }
   return result;
 }

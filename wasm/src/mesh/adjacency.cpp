@@ -168,7 +168,8 @@ bool AdjacencyBuilder::linkEdges() {
     });
     for (size_t i = 0, j; i < keys.size(); i = j) {
       for (j = i + 1; j < keys.size() && keys[j].other == keys[i].other;) ++j;
-      if (j - i == 2) links_[keys[i].half] = keys[i + 1].half, links_[keys[i + 1].half] = keys[i].half;
+      if (j - i == 2)
+        links_[keys[i].half] = keys[i + 1].half, links_[keys[i + 1].half] = keys[i].half;
       if (j - i <= 2) continue;
       if (!reserve(halves, j - i, charge)) return false;
       halves.clear();
@@ -286,7 +287,8 @@ bool AdjacencyBuilder::turn() {
   if (!reserve(pairs, a_.seams.size() / 2, charge)) return false;
   for (size_t i = 0; i < a_.seams.size(); i += 2)
     pairs.push_back({turned(a_.seams[i]), turned(a_.seams[i + 1])});
-  sf::sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) { return p.first < q.first; });
+  sf::sort(pairs.begin(), pairs.end(),
+           [](const Pair& p, const Pair& q) { return p.first < q.first; });
   for (size_t i = 0; i < pairs.size(); ++i)
     a_.seams[2 * i] = pairs[i].first, a_.seams[2 * i + 1] = pairs[i].second;
   return true;
@@ -355,8 +357,10 @@ uint32_t Adjacency::acrossSeam(uint32_t h) const {
   size_t low = 0, high = seams.size() / 2;
   while (low < high) {
     const size_t middle = (low + high) / 2;
-    if (seams[2 * middle] < h) low = middle + 1;
-    else high = middle;
+    if (seams[2 * middle] < h)
+      low = middle + 1;
+    else
+      high = middle;
   }
   return low < seams.size() / 2 && seams[2 * low] == h ? seams[2 * low + 1] : kNone;
 }

@@ -19,7 +19,7 @@
 namespace sf {
 
 enum class DefectKind : uint8_t {
-  NonManifoldEdge,    // edges [2e]: of three faces or more; faces: those left without a neighbour there
+  NonManifoldEdge,  // edges [2e]: of three faces or more; faces: those left without a neighbour there
   NonManifoldVertex,  // vertices: of several fans of faces, other than the ends of `NonManifoldEdge`s
   Flipped,            // faces: turned, in the adjacency
   DuplicateFace,      // faces: on the vertices of an earlier one, in any order; left out
@@ -37,17 +37,18 @@ struct Defect {
 /// Half-edge 3f + i is of face f. It runs from `corners` of it to that of the next half-edge of f.
 /// A turned face lists its corners as a, c, b in place of a, b, c.
 struct Adjacency {
-  std::vector<uint32_t> corners;    // [3m] working vertices; kNone in faces left out
-  std::vector<uint32_t> twins;      // [3m] or kNone: of the rim, cut, or of a face left out
-  std::vector<uint8_t> turned;      // [m] 1 if the face is used the other way round
-  std::vector<uint32_t> component;  // [m] connected by edges, cut ones of `seams` too; kNone if left out
+  std::vector<uint32_t> corners;  // [3m] working vertices; kNone in faces left out
+  std::vector<uint32_t> twins;    // [3m] or kNone: of the rim, cut, or of a face left out
+  std::vector<uint8_t> turned;    // [m] 1 if the face is used the other way round
+  std::vector<uint32_t>
+      component;  // [m] connected by edges, cut ones of `seams` too; kNone if left out
   uint32_t components = 0;
-  uint32_t vertices = 0;              // n, those of the input, which are working vertices too
-  std::vector<uint32_t> splitOf;      // [w - n] input vertices of the further working vertices
-  std::vector<uint32_t> cut;          // half-edges left open at non-manifold edges, by number
-  std::vector<uint32_t> seams;        // [2s] half-edge, and the one across that runs the *same* way,
-                                      // each pair in both orders, by the first
-  std::vector<Defect> defects;        // one of a kind at most, in the order of DefectKind
+  uint32_t vertices = 0;          // n, those of the input, which are working vertices too
+  std::vector<uint32_t> splitOf;  // [w - n] input vertices of the further working vertices
+  std::vector<uint32_t> cut;      // half-edges left open at non-manifold edges, by number
+  std::vector<uint32_t> seams;    // [2s] half-edge, and the one across that runs the *same* way,
+                                  // each pair in both orders, by the first
+  std::vector<Defect> defects;    // one of a kind at most, in the order of DefectKind
 
   uint32_t inputVertex(uint32_t v) const { return v < vertices ? v : splitOf[v - vertices]; }
   /// Input vertices at the two ends of a half-edge.

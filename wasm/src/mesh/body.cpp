@@ -26,9 +26,12 @@ bool findBodies(const MeshView& mesh, const Adjacency& adjacency, const Rims& ri
     return c;
   };
   for (uint32_t g = 0; g < groups.count(); ++g) {
-    const uint32_t first = bodyOf(rims.rims[groups.rims[groups.starts[g]]].component);
-    for (uint32_t i = groups.starts[g] + 1; i < groups.starts[g + 1]; ++i)
-      parents[bodyOf(rims.rims[groups.rims[i]].component)] = first;
+    const uint32_t first = rims.rims[groups.rims[groups.starts[g]]].component;
+    for (uint32_t i = groups.starts[g]; i < groups.starts[g + 1]; ++i) {
+      const uint32_t r = groups.rims[i];
+      for (uint32_t e = rims.starts[r]; e < rims.starts[r + 1]; ++e)
+        parents[bodyOf(a.component[rims.halves[e] / 3])] = bodyOf(first);
+    }
   }
   result.assign(a.components, {});
   for (size_t i = 0; i < a.seams.size(); i += 2)

@@ -8,8 +8,8 @@
 namespace sf {
 
 struct Body {
-  uint32_t openGroups = 0;      // groups with isOpenRim
-  uint32_t openGroup = kNone;   // one of them
+  uint32_t openGroups = 0;     // groups with isOpenRim
+  uint32_t openGroup = kNone;  // one of them
   bool isOrientable = true;
   double area = 0, volume = 0;  // with every rim closed by triangles from its middle; scaled
   /// 36 pi volume^2 / area^3: 1 of a ball, 0 of a flat sheet.

@@ -41,7 +41,7 @@ class RimFinder {
 
  private:
   struct Step {
-    uint32_t edge;  // index in edges_
+    uint32_t edge;   // index in edges_
     bool isAgainst;  // passed from its filling edge's end to its beginning
   };
 
@@ -53,7 +53,7 @@ class RimFinder {
   double gapCost(End arriving, End leaving) const;
   bool trace();
   bool split(const std::vector<Step>& walk);
-  bool add(ArrayView<const Step> walk);
+  bool add(ArrayView<Step> walk);
   double diameterOf(ArrayView<const uint32_t> vertices);
   Vec3 normalOf(uint32_t h) const;
   Vec3 areaNormal(uint32_t face) const;
@@ -75,8 +75,8 @@ class RimFinder {
   Charge& charge_;    // of the result
   Charge temporary_;  // of what follows
   Rims& rims_;
-  std::vector<uint32_t> edges_;  // half-edges of rims, by number
-  std::vector<End> mates_;       // [2 edges] the end that a rim goes on with
+  std::vector<uint32_t> edges_;   // half-edges of rims, by number
+  std::vector<End> mates_;        // [2 edges] the end that a rim goes on with
   std::vector<uint32_t> seenAt_;  // [n] place in a walk, while one is split
 };
 
@@ -127,8 +127,7 @@ bool RimFinder::joinThroughGaps() {
   };
   std::vector<Arrival> arrivals;
   if (!reserve(arrivals, edges_.size(), temporary_)) return false;
-  for (End end = 1; end < mates_.size(); end += 2)
-    arrivals.push_back({vertexOf(end), end});
+  for (End end = 1; end < mates_.size(); end += 2) arrivals.push_back({vertexOf(end), end});
   sf::sort(arrivals.begin(), arrivals.end(), [](const Arrival& p, const Arrival& q) {
     return p.vertex != q.vertex ? p.vertex < q.vertex : p.end < q.end;
   });
@@ -227,8 +226,8 @@ bool RimFinder::split(const std::vector<Step>& walk) {
     const uint32_t v = beginOf(s);
     if (seenAt_[v] != kNone) {
       const uint32_t first = seenAt_[v];
-      isGood = isGood && add({open.data() + first, open.size() - first});
       for (size_t i = first; i < open.size(); ++i) seenAt_[beginOf(open[i])] = kNone;
+      isGood = isGood && add({open.data() + first, open.size() - first});
       open.resize(first);
     }
     seenAt_[v] = uint32_t(open.size());
@@ -238,8 +237,13 @@ bool RimFinder::split(const std::vector<Step>& walk) {
   return isGood && add(open);
 }
 
-bool RimFinder::add(ArrayView<const Step> walk) {
+bool RimFinder::add(ArrayView<Step> walk) {
   if (walk.size() < 3) return true;  // a slit
+  // Parts of a walk across seams may run the wrong way.
+  if (walk[0].isAgainst) {
+    std::reverse(walk.begin(), walk.end());
+    for (Step& s : walk) s.isAgainst = !s.isAgainst;
+  }
   const uint32_t first = uint32_t(rims_.vertices.size());
   Rim rim{0, 0, kNone, 0, false};
   for (const Step s : walk) {

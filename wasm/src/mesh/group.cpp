@@ -109,8 +109,8 @@ bool Grouper::joinByGroups() {
         const uint32_t root = rootOf(v.first == rim ? v.second : v.first);
         if (root == rootOf(rim)) continue;
         const double share = v.first == rim ? v.shareOfFirst : v.shareOfSecond;
-        const auto same = std::find_if(sums.begin(), sums.end(),
-                                       [&](const Sum& s) { return s.root == root; });
+        const auto same =
+            std::find_if(sums.begin(), sums.end(), [&](const Sum& s) { return s.root == root; });
         if (same == sums.end()) {
           if (!push(sums, {root, looks[j].vote, share}, temporary_)) return false;
           continue;
@@ -225,9 +225,9 @@ void Grouper::finish(uint32_t first, uint32_t root) {
   std::rotate(begin, g_.rims.begin() + ptrdiff_t(outer), g_.rims.begin() + ptrdiff_t(outer) + 1);
   const bool isAlone = g_.rims.size() - first == 1;
   const bool isOpen = open > kOpenFrom * whole || crossesSeam;
-  g_.kinds.push_back(isAlone                ? GroupKind::Alone
+  g_.kinds.push_back(isAlone               ? GroupKind::Alone
                      : leastTurning < -kPi ? GroupKind::Island
-                                            : GroupKind::Band);
+                                           : GroupKind::Band);
   g_.scores.push_back(scores_[root]);
   g_.isOpenRim.push_back(isOpen);
   g_.isSeam.push_back(isSeam && isOpen);
@@ -247,7 +247,7 @@ bool Grouper::closeBodies() {
 }  // namespace
 
 bool regroupRims(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work,
-                 Charge&, Grouping& result) {
+                 Grouping& result) {
   return Grouper(mesh, adjacency, rims, work, result).group();
 }
 
@@ -257,7 +257,7 @@ bool groupRims(const MeshView& mesh, const Adjacency& adjacency, const Rims& rim
   // starts, rims, kinds, scores, flags: no more groups than rims, now and later.
   if (!charge.add(rims.count() * (2 * sizeof(uint32_t) + sizeof(double) + 3))) return false;
   return Grouper(mesh, adjacency, rims, work, result).joinByVotes() &&
-         regroupRims(mesh, adjacency, rims, work, charge, result);
+         regroupRims(mesh, adjacency, rims, work, result);
 }
 
 }  // namespace sf

@@ -17,24 +17,25 @@ enum class GroupKind : uint8_t { Alone, Island, Band };
 
 /// How two rims look at each other.
 struct RimVote {
-  uint32_t first, second;               // first < second
-  double shareOfFirst, shareOfSecond;   // of each rim, by length, that looks at the other
-  double vote;    // the larger share; or that of one rim at all rims of the other's group, if that joins them
+  uint32_t first, second;              // first < second
+  double shareOfFirst, shareOfSecond;  // of each rim, by length, that looks at the other
+  double
+      vote;  // the larger share; or that of one rim at all rims of the other's group, if that joins them
   bool isJoined;
 };
 
 struct Grouping {
-  std::vector<double> openness;     // [k] share of each rim, by length, that faces nothing
-  std::vector<RimVote> votes;       // all pairs with votes, by rims
+  std::vector<double> openness;  // [k] share of each rim, by length, that faces nothing
+  std::vector<RimVote> votes;    // all pairs with votes, by rims
   /// Votes from kDoubtFrom to kDoubtTo between rims that stronger votes do not join: the cost of spans
   /// should decide. Indices in `votes`.
   std::vector<uint32_t> doubts;
 
-  std::vector<uint32_t> starts;     // [g+1] in `rims`
-  std::vector<uint32_t> rims;       // [k] outer rim first, then by number; groups by their least rim
-  std::vector<GroupKind> kinds;     // [g]
-  std::vector<double> scores;       // [g] the least vote that the group hangs by; 1 for a rim alone
-  std::vector<uint8_t> isOpenRim;   // [g] meant to be open
+  std::vector<uint32_t> starts;    // [g+1] in `rims`
+  std::vector<uint32_t> rims;      // [k] outer rim first, then by number; groups by their least rim
+  std::vector<GroupKind> kinds;    // [g]
+  std::vector<double> scores;      // [g] the least vote that the group hangs by; 1 for a rim alone
+  std::vector<uint8_t> isOpenRim;  // [g] meant to be open
   /// [g] Open, and along edges that have other faces: where a sheet ends on others. Neither a hole nor
   /// an open rim of the mesh.
   std::vector<uint8_t> isSeam;
@@ -42,9 +43,9 @@ struct Grouping {
   uint32_t count() const { return uint32_t(kinds.size()); }
 };
 
-constexpr double kJoinsFrom = 0.4;                   // least vote that joins two rims
-constexpr double kJoinsGroupFrom = 0.5;              // least share at a group that joins a rim to it
-constexpr double kOpenFrom = 0.5;                    // an open rim has more openness
+constexpr double kJoinsFrom = 0.4;       // least vote that joins two rims
+constexpr double kJoinsGroupFrom = 0.5;  // least share at a group that joins a rim to it
+constexpr double kOpenFrom = 0.5;        // an open rim has more openness
 constexpr double kDoubtFrom = 0.3, kDoubtTo = 0.65;  // votes that the cost should confirm
 
 /// Groups rims by their votes.
@@ -57,6 +58,6 @@ bool groupRims(const MeshView& mesh, const Adjacency& adjacency, const Rims& rim
 
 /// Makes the groups anew after `isJoined` of votes has been changed. O(m + r).
 bool regroupRims(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work,
-                 Charge& charge, Grouping& result);
+                 Grouping& result);
 
 }  // namespace sf

@@ -19,8 +19,8 @@ double angleOf(double cosine) {
 /// Puts half of the items, by the longest side of the box around their places, in front.
 template <class PlaceOf>
 void halve(uint32_t* items, uint32_t count, Vec3 size, PlaceOf placeOf) {
-  double Vec3::* const axis = size.x >= size.y && size.x >= size.z ? &Vec3::x
-                              : size.y >= size.z                  ? &Vec3::y
+  double Vec3::*const axis = size.x >= size.y && size.x >= size.z ? &Vec3::x
+                             : size.y >= size.z                   ? &Vec3::y
                                                                   : &Vec3::z;
   std::nth_element(items, items + count / 2, items + count, [&](uint32_t i, uint32_t j) {
     const double a = placeOf(i).*axis, b = placeOf(j).*axis;
@@ -52,8 +52,7 @@ RimPartner costBetween(const RimSide& p, const RimSide& q, uint32_t edge, double
   cost += result.turn;
   if (!(cost < least)) return result;
   // The trace of the rotation between the frames ahead, normal, along at p and turned about at q.
-  const double trace =
-      -dot(p.ahead, q.ahead) + dot(p.normal, q.normal) - dot(p.along, q.along);
+  const double trace = -dot(p.ahead, q.ahead) + dot(p.normal, q.normal) - dot(p.along, q.along);
   result.rotation = angleOf(std::max(-1.0, std::min(1.0, (trace - 1) / 2)));
   result.cost = cost + result.rotation;
   return result;

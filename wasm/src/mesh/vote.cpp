@@ -15,6 +15,9 @@ constexpr double kTurnOfOpen = 2.8;
 /// But the two sides of a slit, a rim of less area over its squared length, face each other even if
 /// the way from middle to middle runs along it: it turns less than this, and the frames fit.
 constexpr double kAreaOfSlit = 1e-5, kTurnAcrossSlit = 3.5, kRotationAcrossSlit = 1;
+/// The logarithm of how many times cheaper the partner's own best may be. An edge that has something better
+/// is no partner: the holes of one thing are of no use to the rim of another beside it.
+constexpr double kUnrequited = 2;
 /// An edge looks for partners on rims not farther than this many radii of its own.
 constexpr double kReach = 3;
 
@@ -46,7 +49,8 @@ void placeVoters(const Rims& rims, const UnitScale& at, Voters& voters) {
     for (uint32_t i = 0; i < n; ++i) {
       RimSide& side = voters.sides[first + i];
       radius = std::max(radius, distance(centre, side.at));
-      const Vec3 a = at(rims.vertices[first + i]), b = at(rims.vertices[rims.nextEdge(r, first + i)]);
+      const Vec3 a = at(rims.vertices[first + i]),
+                 b = at(rims.vertices[rims.nextEdge(r, first + i)]);
       area = area + 0.5 * cross(a - centre, b - centre);
       length += voters.lengths[first + i];
       Vec3 ahead = out[first + i];
@@ -76,7 +80,8 @@ bool castVotes(const MeshView& mesh, const Rims& rims, Work& work, Charge& charg
   const UnitScale at(mesh.positions);
   const size_t edges = rims.vertices.size();
   Charge temporary(work);
-  if (!temporary.add(edges * (sizeof(RimSide) + sizeof(double) + sizeof(Vec3)) +
+  if (!temporary.add(edges *
+                         (sizeof(RimSide) + sizeof(RimPartner) + sizeof(double) + sizeof(Vec3)) +
                      rims.count() * (sizeof(RimBall) + 1)) ||
       !charge.add(rims.count() * sizeof(double)))
     return false;
@@ -86,23 +91,29 @@ bool castVotes(const MeshView& mesh, const Rims& rims, Work& work, Charge& charg
   RimTree tree(work);
   if (!tree.build(voters.sides, rims.starts, voters.balls)) return false;
 
+  std::vector<RimPartner> partners(edges);
+  for (uint32_t e = 0; e < edges; ++e) {
+    partners[e] = tree.best(e, kReach * voters.balls[voters.sides[e].rim].radius);
+    if (!work.going()) return false;
+  }
   std::vector<RimVote> ballots;
   result = {};
   result.openness.assign(rims.count(), 0);
   for (uint32_t r = 0; r < rims.count(); ++r) {
     const uint32_t first = rims.starts[r], n = rims.starts[r + 1] - first;
-    const double whole = std::accumulate(voters.lengths.begin() + first,
-                                         voters.lengths.begin() + first + n, 0.0);
+    const double whole =
+        std::accumulate(voters.lengths.begin() + first, voters.lengths.begin() + first + n, 0.0);
     for (uint32_t e = first; e < first + n; ++e) {
-      const RimPartner best = tree.best(e, kReach * voters.balls[r].radius);
-      if (!work.going()) return false;
+      const RimPartner& best = partners[e];
       const double share = whole > 0 ? voters.lengths[e] / whole : 1.0 / n;
-      if (facesNothing(best, voters.isSlit[r] != 0)) {
+      const uint32_t other = best.edge == kNone ? kNone : voters.sides[best.edge].rim;
+      const bool isUnrequited =
+          other != kNone && other != r && best.cost > partners[best.edge].cost + kUnrequited;
+      if (isUnrequited || facesNothing(best, voters.isSlit[r] != 0)) {
         result.openness[r] += share;
         continue;
       }
-      const uint32_t other = voters.sides[best.edge].rim;
-      if (other == r) continue;
+      if (other == r || !(share > 0)) continue;
       RimVote ballot{r, other, share, 0, 0, false};
       if (r > other) ballot = {other, r, 0, share, 0, false};
       if (!push(ballots, ballot, temporary)) return false;
@@ -116,7 +127,9 @@ bool castVotes(const MeshView& mesh, const Rims& rims, Work& work, Charge& charg
   });
   for (size_t i = 0, j; i < ballots.size(); i = j) {
     RimVote sum = ballots[i];
-    for (j = i + 1; j < ballots.size() && ballots[j].first == sum.first && ballots[j].second == sum.second; ++j) {
+    for (j = i + 1;
+         j < ballots.size() && ballots[j].first == sum.first && ballots[j].second == sum.second;
+         ++j) {
       sum.shareOfFirst += ballots[j].shareOfFirst;
       sum.shareOfSecond += ballots[j].shareOfSecond;
     }
