@@ -267,7 +267,9 @@ Status HoleFiller::fill(ArrayView<const uint32_t> rims, const FillOptions& optio
   hole.spanned = surface.positions;
   if (options.fairing != Fairing::None && !isExact && surface.positions.size() > 3 * size_t(surface.fixedVertices)) {
     FairOptions fairing;
-    const bool isRough = options.fairing == Fairing::Auto && roughness(surface) > kRough;
+    double rough = 0;
+    if (options.fairing == Fairing::Auto && !roughness(surface, work_, rough)) return work_.status();
+    const bool isRough = rough > kRough;
     fairing.order = options.fairing == Fairing::Bending || isRough ? 2 : 3;
     Fairness fairness;
     status = fair(surface, fairing, work_, fairness);
