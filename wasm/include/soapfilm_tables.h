@@ -33,7 +33,8 @@
   X(HoleOutside, 16, "polygons: a hole is not inside the outer ring, or crosses it") \
   X(HolesOverlap, 17, "polygons: two holes cross or have an edge in common")         \
   X(NestedHole, 18, "polygons: a hole lies inside another")                          \
-  X(DegeneratePolygon, 19, "polygons: a ring has fewer than 3 distinct points, or a spike")
+  X(DegeneratePolygon, 19, "polygons: a ring has fewer than 3 distinct points, or a spike") \
+  X(BadMesh, 20, "meshes: a face has a vertex that is not there")
 
 /* The place in the input that a status is about. A field that does not apply is 0xFFFFFFFF. */
 #define SF_PLACE_RECORD(X)                                                          \
@@ -186,5 +187,99 @@
   X(uint32_t, stripStarts, "[s+1] where each strip begins in `strips`")        \
   X(uint32_t, certified,                                                       \
     "[1] 1 if the whole polygon passes the certificate, tested from scratch; else 0")
+
+/* sf_find_holes */
+
+#define SF_HOLES_ARRAYS(X)                                                                \
+  X(uint32_t, loopStarts, "[k+1] where the vertices of each loop begin")                  \
+  X(uint32_t, loopVertices, "the vertices of all loops, as faces that fill the hole run") \
+  X(SfLoopFacts, loopFacts, "[k]")                                                        \
+  X(uint32_t, groupStarts, "[g+1] where the loops of each group begin")                   \
+  X(uint32_t, groupLoops, "[k] the loops of all groups, the outer rim first")             \
+  X(SfGroupFacts, groupFacts, "[g]")                                                      \
+  X(SfDefectCounts, defects, "[d] what is wrong with the mesh, a kind at most once")      \
+  X(uint32_t, defectPlaces, "for each defect its faces, its edges as pairs, its vertices")
+
+#define SF_LOOP_FACTS_RECORD(X)                              \
+  X(double, length, "of the loop")                           \
+  X(double, diameter, "the largest distance in it")          \
+  X(double, openness, "share of its length, facing nothing") \
+  X(double, component, "of the faces along it")
+
+#define SF_GROUP_KIND_CHOICES(X) \
+  X(Alone, 0, "alone")           \
+  X(Island, 1, "island")         \
+  X(Band, 2, "band")
+
+#define SF_GROUP_FACTS_RECORD(X)                           \
+  X(double, kind, "a choice of SF_GROUP_KIND_CHOICES")     \
+  X(double, score, "the least vote that it hangs by")      \
+  X(double, isOpenRim, "1 if it is meant to be open, else 0")
+
+#define SF_DEFECT_KIND_CHOICES(X)                \
+  X(NonManifoldEdge, 0, "non-manifold-edge")     \
+  X(NonManifoldVertex, 1, "non-manifold-vertex") \
+  X(Flipped, 2, "flipped")                       \
+  X(DuplicateFace, 3, "duplicate-face")          \
+  X(DegenerateFace, 4, "degenerate-face")        \
+  X(NotOrientable, 5, "not-orientable")          \
+  X(UnusedVertex, 6, "unused-vertex")
+
+#define SF_DEFECT_COUNTS_RECORD(X)                           \
+  X(uint32_t, kind, "a choice of SF_DEFECT_KIND_CHOICES")    \
+  X(uint32_t, faces, "how many numbers of `defectPlaces` are faces") \
+  X(uint32_t, edges, "how many are of edges, two for each")  \
+  X(uint32_t, vertices, "how many are vertices")
+
+/* sf_fill_holes */
+
+#define SF_FAIRING_CHOICES(X) \
+  X(None, 0, "none")          \
+  X(Bending, 1, "bending")    \
+  X(Curvature, 2, "curvature") \
+  X(Auto, 3, "auto")
+
+#define SF_PATCH_SETTINGS(X)                                                          \
+  X(double, areaWeight, "per square unit; NaN: as in SF_SPAN_SETTINGS")               \
+  X(double, perimeterWeight, "per unit of triangle perimeter")                        \
+  X(double, dihedralWeight, "per radian")                                             \
+  X(double, space, "a choice of SF_SPACE_CHOICES, but not Given")                     \
+  X(double, fairing, "a choice of SF_FAIRING_CHOICES")                                \
+  X(double, density, "how much denser than its surroundings the patch is; 0: as spanned") \
+  X(double, maxNewVertices, "most vertices that refining adds")
+
+#define SF_FILL_STATUS_CHOICES(X)              \
+  X(Filled, 0, "filled")                       \
+  X(SelfIntersecting, 1, "self-intersecting")  \
+  X(Failed, 2, "failed")
+
+#define SF_FILL_REASON_CHOICES(X)              \
+  X(None, 0, "none")                           \
+  X(NoSurface, 1, "no-surface")                \
+  X(RimsIntersect, 2, "rims-intersect")        \
+  X(RepeatedVertex, 3, "repeated-vertex")      \
+  X(DuplicateFace, 4, "duplicate-face")        \
+  X(TooLarge, 5, "too-large")                  \
+  X(InsertedVertices, 6, "inserted-vertices")
+
+#define SF_FILL_ARRAYS(X)                                                        \
+  X(double, positions, "[3a] the vertices of all patches, numbered from n on")   \
+  X(uint32_t, faces, "[3b] the faces of all patches")                            \
+  X(SfFilledFacts, holes, "[g] by groups")                                       \
+  X(uint32_t, pairs, "[2p] faces of the filled mesh that intersect, by groups")
+
+#define SF_FILLED_FACTS_RECORD(X)                                              \
+  X(double, status, "a choice of SF_FILL_STATUS_CHOICES")                      \
+  X(double, reason, "a choice of SF_FILL_REASON_CHOICES")                      \
+  X(double, cost, "of the surface before it was refined")                      \
+  X(double, lowerBound, "proven, on that cost")                                \
+  X(double, optimal, "1 if that surface is proven to be the best, else 0")     \
+  X(double, rimAngleBefore, "mean angle along the rim, before refining")       \
+  X(double, rimAngleAfter, "and after fairing")                                \
+  X(double, fairnessUsed, "the order of the fairing, 0 if there was none")     \
+  X(double, movedLess, "share of the fairing that was taken back")             \
+  X(double, firstFace, "its first face in the filled mesh")                    \
+  X(double, endFace, "the one after its last")                                 \
+  X(double, pairs, "how many pairs of faces intersect")
 
 #endif
