@@ -147,7 +147,7 @@ describe('the store', () => {
     store.mode.value = 'test';
     group = store.ensureGroup('test', {});
     store.dispatch({ type: 'open', group: group.id, name: 'Test', items: [dotsItem([0, 1, 2], [3, 4, 5]), dotsItem([6])] });
-    group = store.groupOf('test').value;
+    group = store.groupOf('test', {}).value;
   });
   const place = (item: number, part: number, handle: number | null): Place => ({ item: group.items[item].id, part, handle });
   const remove = (...places: Place[]) => { store.dispatch({ type: 'delete', group: group.id, places }); };

@@ -40,7 +40,7 @@ export function FaultLabels({ stage, failures }: FaultLabelsProps) {
           key={i}
           class="fault-label"
           style={{
-            ...(at.x < width - kRoom[0] ? { left: `${at.x.toFixed(0)}px` } : { right: `${(width - at.x).toFixed(0)}px` }),
+            left: `${Math.min(at.x, Math.max(0, width - kRoom[0])).toFixed(0)}px`,
             ...(at.y < height - kRoom[1] ? { top: `${at.y.toFixed(0)}px` } : { bottom: `${(height - at.y).toFixed(0)}px` }),
           }}
         >
