@@ -10,6 +10,7 @@ export type ErrorCode =
   | 'too-few-vertices'
   | 'repeated-vertex'
   | 'loops-intersect'
+  | 'bad-mesh'
   | 'bad-normals'
   | 'bad-weights'
   | 'bad-candidates'

@@ -2,6 +2,9 @@
 import { guarded, mustBe, type Given, type Names } from './check.js';
 import type {
   CandidateList,
+  FillOptions,
+  HoleFillOptions,
+  HoleOptions,
   LoadOptions,
   Part,
   PolygonOptions,
@@ -10,7 +13,7 @@ import type {
   Weights,
 } from './types.js';
 
-export const kParts: readonly Part[] = ['loops', 'polygons'];
+export const kParts: readonly Part[] = ['loops', 'polygons', 'meshes'];
 
 export const kLoadOptions: Names<LoadOptions> = { parts: true, wasm: true, checks: true };
 
@@ -44,6 +47,29 @@ export const kPolygonOptions: Names<PolygonOptions> = {
 };
 
 export const kPolygonsOptions: Names<PolygonsOptions> = { ...kPolygonOptions, skipInvalid: true };
+
+export const kHoleFillOptions: Names<HoleFillOptions> = {
+  weights: true,
+  candidates: true,
+  fairness: true,
+  density: true,
+  maxNewVertices: true,
+};
+
+export const kHoleOptions: Names<HoleOptions> = kLimits;
+
+export const kFillOptions: Names<FillOptions> = {
+  ...kLimits,
+  ...kHoleFillOptions,
+  holes: true,
+  groups: true,
+  perHole: true,
+  fillOpenRims: true,
+  maxVertices: true,
+  maxLength: true,
+  output: true,
+  onProgress: true,
+};
 
 export interface Limits {
   readonly maxMemoryBytes?: number;

@@ -49,6 +49,7 @@ export class Home {
 export const shared: Readonly<Record<Part, Home>> = {
   loops: new Home('loops'),
   polygons: new Home('polygons'),
+  meshes: new Home('meshes'),
 };
 
 /** The default memory limit of a call; WebAssembly memory ends at 4 GiB. */

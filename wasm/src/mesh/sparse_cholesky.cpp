@@ -203,7 +203,7 @@ bool SparseCholesky::analyze(const SparseRows& matrix) {
       for (uint32_t i = nodes_[child].rowsFrom; i < nodes_[child].rowsTo; ++i)
         if (!add(rows_[i])) return false;
     node.rowsTo = uint32_t(rows_.size());
-    sort(rows_.begin() + node.rowsFrom, rows_.end());
+    sf::sort(rows_.begin() + node.rowsFrom, rows_.end());
     node.panel = size_t(size);
     size += uint64_t(node.columns()) * (node.columns() + node.below());
     if (node.rowsFrom < node.rowsTo) {

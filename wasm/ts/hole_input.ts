@@ -1,0 +1,93 @@
+// Meshes and options of holes as callers give them, checked.
+import { fieldsOf, flagOf, choiceOf, functionOf, guarded, isIndex, mustBe, optionsOf, viewOf, type Given } from './check.js';
+import type { FlatMesh } from './compute_holes.js';
+import { SoapfilmError } from './errors.js';
+import { kHoleFillOptions, limitsOf } from './options.js';
+import { weightsOf } from './span_input.js';
+import type { FillOptions, HoleFillOptions } from './types.js';
+
+/**
+ * The mesh as the core takes it, copied where it must be.
+ * @param own whether arrays must be copies, not views of the caller's
+ * @throws SoapfilmError `bad-mesh`
+ */
+export function flattenMesh(mesh: unknown, own: boolean): FlatMesh {
+  const names = { positions: true, faces: true, triangles: true } as const;
+  const { positions: points, faces, triangles } = fieldsOf<Record<keyof typeof names, unknown>>(mesh, names, 'mesh', 'bad-mesh');
+  const isTriples = (length: number): boolean => length % 3 === 0;
+  const positions = guarded('bad-mesh', 'mesh.positions', () => viewOf(['Float32Array', 'Float64Array'], points));
+  if (!positions || !isTriples(positions.length)) {
+    throw mustBe('bad-mesh', 'mesh.positions', 'a Float64Array or Float32Array of three numbers for each vertex', points);
+  }
+  const name = faces === undefined && triangles !== undefined ? 'mesh.triangles' : 'mesh.faces';
+  const given = faces ?? triangles;
+  const corners = guarded('bad-mesh', name, () => viewOf(['Uint32Array'], given));
+  if (!corners || !isTriples(corners.length)) {
+    throw mustBe('bad-mesh', name, 'a Uint32Array of three vertices for each face', given);
+  }
+  const single = positions instanceof Float32Array;
+  return {
+    positions: single || own ? Float64Array.from(positions) : (positions as Float64Array),
+    faces: own ? corners.slice() : corners,
+    single,
+  };
+}
+
+/** Options of `fillHoles`, checked, without those that were left out. @throws SoapfilmError `bad-option`, `bad-weights` */
+export function fillOptionsOf(given: Given<FillOptions>): FillOptions {
+  const { holes, groups, perHole, fillOpenRims, maxVertices, maxLength, output, onProgress } = given;
+  const checked: { -readonly [K in keyof FillOptions]: unknown } = { ...limitsOf(given), ...patchOptionsOf(given) };
+  if (holes !== undefined && holes !== 'all') checked.holes = indicesOf('holes', holes);
+  if (groups !== undefined) checked.groups = listOf('groups', groups).map((group, i) => indicesOf(`groups[${i}]`, group, 1));
+  if (perHole !== undefined) checked.perHole = perHoleOf(perHole);
+  checked.fillOpenRims = flagOf('fillOpenRims', fillOpenRims);
+  for (const [name, value] of Object.entries({ maxVertices, maxLength })) {
+    if (value !== undefined) checked[name as 'maxVertices' | 'maxLength'] = sizeOf(name, value);
+  }
+  checked.output = choiceOf('output', ['mesh', 'patches'], output);
+  if (functionOf('onProgress', onProgress) !== undefined) checked.onProgress = onProgress;
+  return checked as FillOptions;
+}
+
+function patchOptionsOf(given: Given<HoleFillOptions>, path = ''): HoleFillOptions {
+  const { weights, candidates, fairness, density, maxNewVertices } = given;
+  const checked: { -readonly [K in keyof HoleFillOptions]: unknown } = {};
+  if (weights !== undefined) checked.weights = weightsOf(weights);
+  if (candidates !== undefined) checked.candidates = choiceOf(`${path}candidates`, ['auto', 'all', 'delaunay', 'near'], candidates);
+  if (fairness !== undefined) checked.fairness = choiceOf(`${path}fairness`, ['auto', 0, 1, 2], fairness);
+  if (density !== undefined) checked.density = sizeOf(`${path}density`, density, 100);
+  if (maxNewVertices !== undefined) checked.maxNewVertices = sizeOf(`${path}maxNewVertices`, maxNewVertices);
+  return checked as HoleFillOptions;
+}
+
+function perHoleOf(value: unknown): Readonly<Record<number, HoleFillOptions>> {
+  const keys = guarded('bad-option', 'perHole', () => Object.keys(value as object));
+  const all = Object.fromEntries(keys.map((key) => [key, true])) as Record<string, true>;
+  const fields = fieldsOf<Record<string, unknown>>(value, all, 'perHole', 'bad-option');
+  return Object.fromEntries(
+    Object.entries(fields).map(([key, options]) => {
+      const name = `perHole[${key}]`;
+      return [key, patchOptionsOf(optionsOf(options, kHoleFillOptions, name), `${name}.`)];
+    }),
+  );
+}
+
+function sizeOf(name: string, value: unknown, most = Infinity): number {
+  if (typeof value === 'number' && value >= 0 && value <= most) return value;
+  throw mustBe('bad-option', name, most < Infinity ? `a number from 0 to ${most}` : 'a number and not negative', value);
+}
+
+function listOf(name: string, value: unknown): unknown[] {
+  const list = guarded('bad-option', name, () => (Array.isArray(value) ? Array.from(value as unknown[]) : undefined));
+  if (list) return list;
+  throw mustBe('bad-option', name, 'an array', value);
+}
+
+function indicesOf(name: string, value: unknown, least = 0): number[] {
+  const list = listOf(name, value);
+  const wrong = list.findIndex((each) => !isIndex(each));
+  if (wrong >= 0) throw mustBe('bad-option', `${name}[${wrong}]`, 'a whole number and not negative', list[wrong]);
+  if (list.length < least) throw mustBe('bad-option', name, 'an array with numbers of loops', value);
+  if (new Set(list).size < list.length) throw new SoapfilmError('bad-option', `\`${name}\` has a number twice`);
+  return list as number[];
+}

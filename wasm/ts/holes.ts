@@ -1,0 +1,29 @@
+// findHoles, fillHoles: check their arguments, and compute.
+import { optionsOf } from './check.js';
+import { computeFill, computeReport } from './compute_holes.js';
+import { fillOptionsOf, flattenMesh } from './hole_input.js';
+import { kFillOptions, kHoleOptions, limitsOf } from './options.js';
+import type { FillOptions, FillResult, HoleOptions, HoleReport, MeshInput } from './types.js';
+
+/**
+ * Finds the holes of a mesh: loops of edges that have a face on one side alone, grouped with their islands. Rims that
+ * are meant to be open are told apart. Whatever is wrong with the mesh is listed, and does no harm. The mesh is read,
+ * and never changed. Time about proportional to its size.
+ *
+ * @throws SoapfilmError `not-loaded`; `bad-mesh` with the `face` at fault, `not-finite` with the `vertex`;
+ *   `bad-option`; `too-large`, `out-of-memory`, `time-limit`; `crashed`
+ */
+export function findHoles(mesh: MeshInput, options: HoleOptions = {}): HoleReport {
+  return computeReport(flattenMesh(mesh, false), limitsOf(optionsOf(options, kHoleOptions)));
+}
+
+/**
+ * Fills holes of a mesh: each group of loops gets the surface of least cost that goes on the faces around it (Zou, Ju,
+ * Carr 2013, sec. 5), refined to the density of its surroundings and faired (Liepa 2003). Old vertices and faces come
+ * first and stay exactly as they are. A patch that intersects something is told so, with the faces.
+ *
+ * @throws SoapfilmError those of `findHoles`; `bad-weights`; what `onProgress` throws
+ */
+export function fillHoles(mesh: MeshInput, options: FillOptions = {}): FillResult {
+  return computeFill(flattenMesh(mesh, false), fillOptionsOf(optionsOf(options, kFillOptions)));
+}
