@@ -39,9 +39,16 @@ class UnitBox {
   double middle_[3] = {0, 0, 0}, extent_ = 0;
 };
 
+ArrayView<const uint32_t> surroundings(const LocalSurface& surface) {
+  return ArrayView<const uint32_t>(surface.triangles).slice(0, 3 * size_t(surface.fixedTriangles));
+}
+
 class Fairing {
  public:
   Fairing(const LocalSurface& surface, Work& work) : surface_(surface), work_(work) {}
+
+  /// Marks the vertices of the surroundings where faces meet at more than an angle.
+  bool findCreases(ArrayView<const Vec3> at, double angle);
 
   /// Solves `rounds` times, of the order asked for or the next lower one that works. Returns that order.
   uint32_t solve(const FairOptions& options, std::vector<Vec3>& at);
@@ -59,13 +66,30 @@ class Fairing {
   const LocalSurface& surface_;
   Work& work_;
   std::vector<double> flat_;
+  std::vector<uint8_t> creased_;  // [n] or empty
   Laplacian laplacian_;
 };
+
+bool Fairing::findCreases(ArrayView<const Vec3> at, double angle) {
+  const ArrayView<const uint32_t> around = surroundings(surface_);
+  std::vector<uint32_t> twins;
+  if (!findTwins(around, uint32_t(at.size()), work_, twins)) return false;
+  const auto normal = [&](uint32_t h) {
+    const uint32_t t = h - h % 3;
+    return cross(at[around[t + 1]] - at[around[t]], at[around[t + 2]] - at[around[t]]);
+  };
+  creased_.assign(at.size(), 0);
+  for (uint32_t h = 0; h < around.size(); ++h) {
+    if (twins[h] == kNone || twins[h] < h || angleBetween(normal(h), normal(twins[h])) <= angle) continue;
+    creased_[around[h]] = creased_[around[nextInTriangle(h)]] = 1;
+  }
+  return true;
+}
 
 bool Fairing::measure(ArrayView<const Vec3> at) {
   flat_.clear();
   for (const Vec3& p : at) flat_.insert(flat_.end(), {p.x, p.y, p.z});
-  return buildLaplacian(flat_, surface_.triangles, work_, laplacian_);
+  return buildLaplacian(flat_, surface_.triangles, creased_, work_, laplacian_);
 }
 
 uint32_t Fairing::solve(const FairOptions& options, std::vector<Vec3>& at) {
@@ -120,6 +144,7 @@ Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairn
   std::vector<Vec3> at(n);
   for (size_t v = 0; v < n; ++v) at[v] = box.in(&surface.positions[3 * v]);
   Fairing fairing(surface, work);
+  if (options.crease > 0 && !fairing.findCreases(at, options.crease)) return work.status();
   const uint32_t order = fairing.solve(options, at);
   if (order == 3 && options.curvatureSteps > 0) fairing.leastVariation(options.curvatureSteps, at);
   if (!work.going() || order == 0) return work.status();
@@ -146,9 +171,9 @@ bool roughness(const LocalSurface& surface, Work& work, double& result) {
     at[v] = box.in(&surface.positions[3 * v]);
     flat.insert(flat.end(), {at[v].x, at[v].y, at[v].z});
   }
-  const ArrayView<const uint32_t> around = ArrayView<const uint32_t>(surface.triangles).slice(0, 3 * size_t(surface.fixedTriangles));
+  const ArrayView<const uint32_t> around = surroundings(surface);
   Laplacian laplacian;
-  if (!buildLaplacian(flat, around, work, laplacian)) return false;
+  if (!buildLaplacian(flat, around, {}, work, laplacian)) return false;
   FairSystem system(laplacian, uint32_t(n), work);
   system.variation(at, around);
   double sum = 0;
@@ -163,28 +188,40 @@ bool roughness(const LocalSurface& surface, Work& work, double& result) {
   return work.going();
 }
 
-bool isFlat(const LocalSurface& surface, double tolerance) {
-  // Vertices of the patch, and of triangles with a side at the rim.
+bool isFlat(const LocalSurface& surface, double crease, double tolerance) {
   const std::vector<uint32_t>& t = surface.triangles;
   const size_t n = surface.positions.size() / 3, fixed = 3 * size_t(surface.fixedTriangles);
-  std::vector<uint8_t> isPatch(n, 0), counts(n, 0);
-  for (size_t h = fixed; h < t.size(); ++h) isPatch[t[h]] = counts[t[h]] = 1;
-  for (size_t h = 0; h < fixed; ++h)
-    if (isPatch[t[h]] && isPatch[t[nextInTriangle(uint32_t(h))]]) counts[t[prevInTriangle(uint32_t(h))]] = 1;
-  const auto at = [&](uint32_t v) { return Vec3{surface.positions[3 * v], surface.positions[3 * v + 1], surface.positions[3 * v + 2]}; };
+  const auto at = [&](uint32_t v) {
+    return Vec3{surface.positions[3 * v], surface.positions[3 * v + 1], surface.positions[3 * v + 2]};
+  };
+  std::vector<uint8_t> isPatch(n, 0);
+  for (size_t h = fixed; h < t.size(); ++h) isPatch[t[h]] = 1;
   Vec3 across{0, 0, 0}, middle{0, 0, 0};
   double number = 0, extent = 0;
   for (size_t h = fixed; h < t.size(); h += 3) across = across + cross(at(t[h + 1]) - at(t[h]), at(t[h + 2]) - at(t[h]));
   for (uint32_t v = 0; v < n; ++v)
-    if (counts[v]) middle = middle + at(v), ++number;
+    if (isPatch[v]) middle = middle + at(v), ++number;
   const double l = length(across);
   if (number == 0 || !(l > 0)) return false;
   middle = (1 / number) * middle, across = (1 / l) * across;
   for (uint32_t v = 0; v < n; ++v)
-    if (counts[v]) extent = std::fmax(extent, distance(at(v), middle));
+    if (isPatch[v]) extent = std::fmax(extent, distance(at(v), middle));
+  const auto isInPlane = [&](uint32_t v) { return std::fabs(dot(at(v) - middle, across)) <= tolerance * extent; };
   for (uint32_t v = 0; v < n; ++v)
-    if (counts[v] && std::fabs(dot(at(v) - middle, across)) > tolerance * extent) return false;
-  return true;
+    if (isPatch[v] && !isInPlane(v)) return false;
+  double inPlane = 0, bent = 0;
+  for (uint32_t h = 0; h < fixed; ++h) {
+    const uint32_t a = t[h], b = t[nextInTriangle(h)], c = t[prevInTriangle(h)];
+    if (!isPatch[a] || !isPatch[b]) continue;
+    const double side = distance(at(a), at(b));
+    if (isInPlane(c))
+      inPlane += side;
+    else if (crease > 0 && angleBetween(across, cross(at(b) - at(a), at(c) - at(a))) > crease)
+      bent += side;
+    else
+      return false;
+  }
+  return inPlane > 0 && 3 * inPlane >= bent;
 }
 
 }  // namespace sf
