@@ -180,6 +180,10 @@ Hole fillLoops(const Sheet& mesh, const std::vector<std::vector<uint32_t>>& loop
   sf::Span span;
   sf::Work work;
   REQUIRE(sf::spanLoops(set, options, work, span).ok());
+  if (!span.inserted.empty()) {
+    options.space = sf::Space::Near;
+    REQUIRE(sf::spanLoops(set, options, work, span).ok());
+  }
   REQUIRE(span.found);
   REQUIRE(span.inserted.empty());
 
