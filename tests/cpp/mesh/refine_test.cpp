@@ -27,8 +27,10 @@ void checkFixed(const LocalSurface& before, const LocalSurface& after) {
   CHECK(after.fixedVertices == before.fixedVertices);
   CHECK(after.fixedTriangles == before.fixedTriangles);
   REQUIRE(after.positions.size() >= before.positions.size());
-  CHECK(std::equal(before.positions.begin(), before.positions.begin() + 3 * before.fixedVertices, after.positions.begin()));
-  CHECK(std::equal(before.triangles.begin(), before.triangles.begin() + 3 * before.fixedTriangles, after.triangles.begin()));
+  CHECK(std::equal(before.positions.begin(), before.positions.begin() + 3 * before.fixedVertices,
+                   after.positions.begin()));
+  CHECK(std::equal(before.triangles.begin(), before.triangles.begin() + 3 * before.fixedTriangles,
+                   after.triangles.begin()));
   for (const double x : after.positions) CHECK(std::isfinite(x));
   const uint32_t added = uint32_t(after.positions.size() - before.positions.size()) / 3;
   CHECK(after.triangles.size() == before.triangles.size() + 6 * size_t(added));
@@ -55,21 +57,25 @@ TEST_CASE("refine: a patch as dense as the surface, of good triangles") {
     CHECK(shape.meanLeastAngle > 42);
     CHECK(shape.leastAngle > 12);
   };
-  check(cutHole(graphSheet(40, [](double, double) { return 0.0; }), [](Vec3 p) { return length(p) < 0.6; }));
+  check(cutHole(graphSheet(40, [](double, double) { return 0.0; }),
+                [](Vec3 p) { return length(p) < 0.6; }));
   check(cutHole(sphereSheet(4), cap(20)));
   check(cutHole(cylinderSheet(60, 40, 4), [](Vec3 p) { return std::fabs(p.z) < 0.7; }));
   // With an island.
-  check(cutHole(graphSheet(50, [](double, double) { return 0.0; }), [](Vec3 p) { return length(p) < 0.7 && length(p) > 0.25; }));
+  check(cutHole(graphSheet(50, [](double, double) { return 0.0; }),
+                [](Vec3 p) { return length(p) < 0.7 && length(p) > 0.25; }));
 }
 
 TEST_CASE("refine: never more vertices than allowed, and near that many where more would fit") {
   const Hole hole = cutHole(sphereSheet(5), cap(70));
-  const uint32_t free = uint32_t(refined(hole.surface).positions.size() / 3) - hole.surface.fixedVertices;
+  const uint32_t free =
+      uint32_t(refined(hole.surface).positions.size() / 3) - hole.surface.fixedVertices;
   CHECK(free > 1000);
   for (const uint32_t most : {0u, 1u, 10u, 100u, 500u}) {
     RefineOptions options;
     options.maxNewVertices = most;
-    const uint32_t added = uint32_t(refined(hole.surface, options).positions.size() / 3) - hole.surface.fixedVertices;
+    const uint32_t added =
+        uint32_t(refined(hole.surface, options).positions.size() / 3) - hole.surface.fixedVertices;
     CHECK(added <= most);
     if (most >= 100) CHECK(added * 4 >= most);
   }
@@ -100,7 +106,8 @@ TEST_CASE("refine: far away, tiny and huge surfaces come out alike") {
   }
   LocalSurface far = hole.surface;
   for (double& x : far.positions) x += 1e6;
-  CHECK(std::fabs(double(refined(far).triangles.size()) / double(plain.triangles.size()) - 1) < 0.1);
+  CHECK(std::fabs(double(refined(far).triangles.size()) / double(plain.triangles.size()) - 1) <
+        0.1);
 }
 
 TEST_CASE("refine: works without surroundings") {

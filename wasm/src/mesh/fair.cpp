@@ -5,6 +5,7 @@
 #include "base/charge.h"
 #include "base/vec.h"
 #include "mesh/fair_system.h"
+#include "mesh/unit_box.h"
 #include "triangles/triangle_mesh.h"
 
 namespace sf {
@@ -14,30 +15,6 @@ namespace {
 constexpr double kFarthest = 1e3;
 // A step shorter than this, in edges of the patch, is the last one.
 constexpr double kLastStep = 0.02;
-
-/// A surface in a box of unit size: neither large nor small coordinates, nor a place far from the origin, change
-/// what comes out.
-class UnitBox {
- public:
-  explicit UnitBox(ArrayView<const double> positions) {
-    const size_t n = positions.size() / 3;
-    for (size_t a = 0; a < 3; ++a) {
-      double low = positions[a], high = low;
-      for (size_t v = 1; v < n; ++v) low = std::fmin(low, positions[3 * v + a]), high = std::fmax(high, positions[3 * v + a]);
-      middle_[a] = low + (high - low) / 2, extent_ = std::fmax(extent_, high - low);
-    }
-  }
-  bool isPoint() const { return !(extent_ > 0) || !std::isfinite(extent_); }
-  Vec3 in(const double* p) const {
-    return {(p[0] - middle_[0]) / extent_, (p[1] - middle_[1]) / extent_, (p[2] - middle_[2]) / extent_};
-  }
-  void out(Vec3 q, double* p) const {
-    p[0] = middle_[0] + extent_ * q.x, p[1] = middle_[1] + extent_ * q.y, p[2] = middle_[2] + extent_ * q.z;
-  }
-
- private:
-  double middle_[3] = {0, 0, 0}, extent_ = 0;
-};
 
 ArrayView<const uint32_t> surroundings(const LocalSurface& surface) {
   return ArrayView<const uint32_t>(surface.triangles).slice(0, 3 * size_t(surface.fixedTriangles));
@@ -59,7 +36,8 @@ class Fairing {
   bool measure(ArrayView<const Vec3> at);
   bool isTame(ArrayView<const Vec3> at) const {
     for (const Vec3& p : at)
-      if (!(std::fabs(p.x) < kFarthest && std::fabs(p.y) < kFarthest && std::fabs(p.z) < kFarthest)) return false;
+      if (!(std::fabs(p.x) < kFarthest && std::fabs(p.y) < kFarthest && std::fabs(p.z) < kFarthest))
+        return false;
     return true;
   }
 
@@ -80,7 +58,8 @@ bool Fairing::findCreases(ArrayView<const Vec3> at, double angle) {
   };
   creased_.assign(at.size(), 0);
   for (uint32_t h = 0; h < around.size(); ++h) {
-    if (twins[h] == kNone || twins[h] < h || angleBetween(normal(h), normal(twins[h])) <= angle) continue;
+    if (twins[h] == kNone || twins[h] < h || angleBetween(normal(h), normal(twins[h])) <= angle)
+      continue;
     creased_[around[h]] = creased_[around[nextInTriangle(h)]] = 1;
   }
   return true;
@@ -192,13 +171,15 @@ bool isFlat(const LocalSurface& surface, double crease, double tolerance) {
   const std::vector<uint32_t>& t = surface.triangles;
   const size_t n = surface.positions.size() / 3, fixed = 3 * size_t(surface.fixedTriangles);
   const auto at = [&](uint32_t v) {
-    return Vec3{surface.positions[3 * v], surface.positions[3 * v + 1], surface.positions[3 * v + 2]};
+    return Vec3{surface.positions[3 * v], surface.positions[3 * v + 1],
+                surface.positions[3 * v + 2]};
   };
   std::vector<uint8_t> isPatch(n, 0);
   for (size_t h = fixed; h < t.size(); ++h) isPatch[t[h]] = 1;
   Vec3 across{0, 0, 0}, middle{0, 0, 0};
   double number = 0, extent = 0;
-  for (size_t h = fixed; h < t.size(); h += 3) across = across + cross(at(t[h + 1]) - at(t[h]), at(t[h + 2]) - at(t[h]));
+  for (size_t h = fixed; h < t.size(); h += 3)
+    across = across + cross(at(t[h + 1]) - at(t[h]), at(t[h + 2]) - at(t[h]));
   for (uint32_t v = 0; v < n; ++v)
     if (isPatch[v]) middle = middle + at(v), ++number;
   const double l = length(across);
@@ -206,7 +187,9 @@ bool isFlat(const LocalSurface& surface, double crease, double tolerance) {
   middle = (1 / number) * middle, across = (1 / l) * across;
   for (uint32_t v = 0; v < n; ++v)
     if (isPatch[v]) extent = std::fmax(extent, distance(at(v), middle));
-  const auto isInPlane = [&](uint32_t v) { return std::fabs(dot(at(v) - middle, across)) <= tolerance * extent; };
+  const auto isInPlane = [&](uint32_t v) {
+    return std::fabs(dot(at(v) - middle, across)) <= tolerance * extent;
+  };
   for (uint32_t v = 0; v < n; ++v)
     if (isPatch[v] && !isInPlane(v)) return false;
   double inPlane = 0, bent = 0;

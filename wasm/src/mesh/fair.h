@@ -15,10 +15,11 @@
 namespace sf {
 
 struct FairOptions {
-  uint32_t order = 3;   // k: 1 least area, 2 least bending, 3 least variation of curvature
-  uint32_t rounds = 3;  // how often weights are taken from the surface that came out
+  uint32_t order = 3;           // k: 1 least area, 2 least bending, 3 least variation of curvature
+  uint32_t rounds = 3;          // how often weights are taken from the surface that came out
   uint32_t curvatureSteps = 4;  // k = 3: steps to the least variation of mean curvature, at most
-  double crease = 0;  // radians: where the surroundings turn more, curvature is not known; 0: nowhere
+  double crease =
+      0;  // radians: where the surroundings turn more, curvature is not known; 0: nowhere
 };
 
 struct Fairness {

@@ -26,7 +26,8 @@ void roundToFloats(LocalSurface& surface) {
 }
 
 /// How many pairs of triangles intersect, one of them in the patch.
-bool countPairs(const LocalSurface& surface, MeshView mesh, const TriangleTree& tree, Work& work, uint32_t& count) {
+bool countPairs(const LocalSurface& surface, MeshView mesh, const TriangleTree& tree, Work& work,
+                uint32_t& count) {
   const MeshView own{surface.positions, surface.triangles};
   const uint32_t from = surface.fixedTriangles, to = uint32_t(surface.triangles.size() / 3);
   std::vector<FacePair> pairs;
@@ -48,8 +49,8 @@ bool findFairOrder(const LocalSurface& surface, double crease, Work& work, uint3
   return true;
 }
 
-Status smoothPatch(LocalSurface& surface, const RefineOptions& refining, const FairOptions& fairing, Work& work,
-                   Fairness& result) {
+Status smoothPatch(LocalSurface& surface, const RefineOptions& refining, const FairOptions& fairing,
+                   Work& work, Fairness& result) {
   result = {};
   FairOptions finish = fairing;
   if (fairing.order > 1 && refining.density > 0) {
@@ -79,11 +80,13 @@ Status smoothPatch(LocalSurface& surface, const RefineOptions& refining, const F
   return status;
 }
 
-Status smoothPatchApart(LocalSurface& surface, const RefineOptions& refining, const FairOptions& fairing, MeshView mesh,
-                        const TriangleTree& tree, bool inFloats, Work& work, Smoothed& result) {
+Status smoothPatchApart(LocalSurface& surface, const RefineOptions& refining,
+                        const FairOptions& fairing, MeshView mesh, const TriangleTree& tree,
+                        bool inFloats, Work& work, Smoothed& result) {
   result = {};
   Charge charge(work);
-  if (!charge.add(surface.positions.size() * 8 + surface.triangles.size() * 4)) return work.status();
+  if (!charge.add(surface.positions.size() * 8 + surface.triangles.size() * 4))
+    return work.status();
   LocalSurface first = surface;
   Status status = smoothPatch(surface, refining, fairing, work, result.fairness);
   if (status != Status::Ok) return status;

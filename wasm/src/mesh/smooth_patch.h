@@ -21,8 +21,8 @@ bool findFairOrder(const LocalSurface& surface, double crease, Work& work, uint3
 
 /// Refines and fairs. `fairing.order` 0 only refines, `refining.density` 0 only fairs.
 /// Errors: OutOfMemory, Stopped; the surface is then in between.
-Status smoothPatch(LocalSurface& surface, const RefineOptions& refining, const FairOptions& fairing, Work& work,
-                   Fairness& result);
+Status smoothPatch(LocalSurface& surface, const RefineOptions& refining, const FairOptions& fairing,
+                   Work& work, Fairness& result);
 
 struct Smoothed {
   Fairness fairness;
@@ -33,7 +33,8 @@ struct Smoothed {
 /// The same, without intersections of the patch with itself and with a mesh where the patch had none before.
 ///   mesh, tree  all of the mesh around, in the places of the surface's fixed vertices; the surroundings are in it
 ///   inFloats    whether coordinates of new vertices are rounded to single precision first
-Status smoothPatchApart(LocalSurface& surface, const RefineOptions& refining, const FairOptions& fairing, MeshView mesh,
-                        const TriangleTree& tree, bool inFloats, Work& work, Smoothed& result);
+Status smoothPatchApart(LocalSurface& surface, const RefineOptions& refining,
+                        const FairOptions& fairing, MeshView mesh, const TriangleTree& tree,
+                        bool inFloats, Work& work, Smoothed& result);
 
 }  // namespace sf
