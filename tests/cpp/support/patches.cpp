@@ -143,7 +143,8 @@ size_t nextCorner(size_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 /// The triangle of each directed edge.
 Edges edgesOf(const std::vector<uint32_t>& triangles) {
   Edges edges;
-  for (size_t h = 0; h < triangles.size(); ++h) edges[{triangles[h], triangles[nextCorner(h)]}] = h / 3;
+  for (size_t h = 0; h < triangles.size(); ++h)
+    edges[{triangles[h], triangles[nextCorner(h)]}] = h / 3;
   return edges;
 }
 
@@ -180,6 +181,10 @@ Hole fillLoops(const Sheet& mesh, const std::vector<std::vector<uint32_t>>& loop
   sf::Span span;
   sf::Work work;
   REQUIRE(sf::spanLoops(set, options, work, span).ok());
+  if (!span.inserted.empty()) {
+    options.space = sf::Space::Near;
+    REQUIRE(sf::spanLoops(set, options, work, span).ok());
+  }
   REQUIRE(span.found);
   REQUIRE(span.inserted.empty());
 
@@ -212,7 +217,8 @@ Hole fillLoops(const Sheet& mesh, const std::vector<std::vector<uint32_t>>& loop
   // The span is wound consistently, one way or the other.
   bool runsAlong = false;
   for (size_t h = 0; h < span.triangles.size(); ++h)
-    runsAlong = runsAlong || rimEdges.count({loopVertices[span.triangles[h]], loopVertices[span.triangles[nextCorner(h)]]});
+    runsAlong = runsAlong || rimEdges.count({loopVertices[span.triangles[h]],
+                                             loopVertices[span.triangles[nextCorner(h)]]});
   for (size_t t = 0; t < span.triangles.size(); t += 3)
     for (const size_t k : {size_t(0), size_t(runsAlong ? 1 : 2), size_t(runsAlong ? 2 : 1)})
       hole.surface.triangles.push_back(number.at(loopVertices[span.triangles[t + k]]));

@@ -40,7 +40,8 @@ struct Hole {
 
 /// Fills the loops of one hole of a mesh with spanLoops.
 ///   loops  vertices as the patch runs along them
-Hole fillLoops(const Sheet& mesh, const std::vector<std::vector<uint32_t>>& loops, uint32_t rings = 5);
+Hole fillLoops(const Sheet& mesh, const std::vector<std::vector<uint32_t>>& loops,
+               uint32_t rings = 5);
 
 /// Cuts away the triangles whose centroid is in a region, which must leave simple rims of one hole, and fills it
 /// with spanLoops. `rings` of triangles around it are kept.

@@ -5,6 +5,7 @@
 #include "base/charge.h"
 #include "base/vec.h"
 #include "mesh/fair_system.h"
+#include "mesh/unit_box.h"
 #include "triangles/triangle_mesh.h"
 
 namespace sf {
@@ -15,33 +16,16 @@ constexpr double kFarthest = 1e3;
 // A step shorter than this, in edges of the patch, is the last one.
 constexpr double kLastStep = 0.02;
 
-/// A surface in a box of unit size: neither large nor small coordinates, nor a place far from the origin, change
-/// what comes out.
-class UnitBox {
- public:
-  explicit UnitBox(ArrayView<const double> positions) {
-    const size_t n = positions.size() / 3;
-    for (size_t a = 0; a < 3; ++a) {
-      double low = positions[a], high = low;
-      for (size_t v = 1; v < n; ++v) low = std::fmin(low, positions[3 * v + a]), high = std::fmax(high, positions[3 * v + a]);
-      middle_[a] = low + (high - low) / 2, extent_ = std::fmax(extent_, high - low);
-    }
-  }
-  bool isPoint() const { return !(extent_ > 0) || !std::isfinite(extent_); }
-  Vec3 in(const double* p) const {
-    return {(p[0] - middle_[0]) / extent_, (p[1] - middle_[1]) / extent_, (p[2] - middle_[2]) / extent_};
-  }
-  void out(Vec3 q, double* p) const {
-    p[0] = middle_[0] + extent_ * q.x, p[1] = middle_[1] + extent_ * q.y, p[2] = middle_[2] + extent_ * q.z;
-  }
-
- private:
-  double middle_[3] = {0, 0, 0}, extent_ = 0;
-};
+ArrayView<const uint32_t> surroundings(const LocalSurface& surface) {
+  return ArrayView<const uint32_t>(surface.triangles).slice(0, 3 * size_t(surface.fixedTriangles));
+}
 
 class Fairing {
  public:
   Fairing(const LocalSurface& surface, Work& work) : surface_(surface), work_(work) {}
+
+  /// Marks the vertices of the surroundings where faces meet at more than an angle.
+  bool findCreases(ArrayView<const Vec3> at, double angle);
 
   /// Solves `rounds` times, of the order asked for or the next lower one that works. Returns that order.
   uint32_t solve(const FairOptions& options, std::vector<Vec3>& at);
@@ -52,20 +36,39 @@ class Fairing {
   bool measure(ArrayView<const Vec3> at);
   bool isTame(ArrayView<const Vec3> at) const {
     for (const Vec3& p : at)
-      if (!(std::fabs(p.x) < kFarthest && std::fabs(p.y) < kFarthest && std::fabs(p.z) < kFarthest)) return false;
+      if (!(std::fabs(p.x) < kFarthest && std::fabs(p.y) < kFarthest && std::fabs(p.z) < kFarthest))
+        return false;
     return true;
   }
 
   const LocalSurface& surface_;
   Work& work_;
   std::vector<double> flat_;
+  std::vector<uint8_t> creased_;  // [n] or empty
   Laplacian laplacian_;
 };
+
+bool Fairing::findCreases(ArrayView<const Vec3> at, double angle) {
+  const ArrayView<const uint32_t> around = surroundings(surface_);
+  std::vector<uint32_t> twins;
+  if (!findTwins(around, uint32_t(at.size()), work_, twins)) return false;
+  const auto normal = [&](uint32_t h) {
+    const uint32_t t = h - h % 3;
+    return cross(at[around[t + 1]] - at[around[t]], at[around[t + 2]] - at[around[t]]);
+  };
+  creased_.assign(at.size(), 0);
+  for (uint32_t h = 0; h < around.size(); ++h) {
+    if (twins[h] == kNone || twins[h] < h || angleBetween(normal(h), normal(twins[h])) <= angle)
+      continue;
+    creased_[around[h]] = creased_[around[nextInTriangle(h)]] = 1;
+  }
+  return true;
+}
 
 bool Fairing::measure(ArrayView<const Vec3> at) {
   flat_.clear();
   for (const Vec3& p : at) flat_.insert(flat_.end(), {p.x, p.y, p.z});
-  return buildLaplacian(flat_, surface_.triangles, work_, laplacian_);
+  return buildLaplacian(flat_, surface_.triangles, creased_, work_, laplacian_);
 }
 
 uint32_t Fairing::solve(const FairOptions& options, std::vector<Vec3>& at) {
@@ -120,6 +123,7 @@ Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairn
   std::vector<Vec3> at(n);
   for (size_t v = 0; v < n; ++v) at[v] = box.in(&surface.positions[3 * v]);
   Fairing fairing(surface, work);
+  if (options.crease > 0 && !fairing.findCreases(at, options.crease)) return work.status();
   const uint32_t order = fairing.solve(options, at);
   if (order == 3 && options.curvatureSteps > 0) fairing.leastVariation(options.curvatureSteps, at);
   if (!work.going() || order == 0) return work.status();
@@ -146,9 +150,9 @@ bool roughness(const LocalSurface& surface, Work& work, double& result) {
     at[v] = box.in(&surface.positions[3 * v]);
     flat.insert(flat.end(), {at[v].x, at[v].y, at[v].z});
   }
-  const ArrayView<const uint32_t> around = ArrayView<const uint32_t>(surface.triangles).slice(0, 3 * size_t(surface.fixedTriangles));
+  const ArrayView<const uint32_t> around = surroundings(surface);
   Laplacian laplacian;
-  if (!buildLaplacian(flat, around, work, laplacian)) return false;
+  if (!buildLaplacian(flat, around, {}, work, laplacian)) return false;
   FairSystem system(laplacian, uint32_t(n), work);
   system.variation(at, around);
   double sum = 0;
@@ -163,28 +167,44 @@ bool roughness(const LocalSurface& surface, Work& work, double& result) {
   return work.going();
 }
 
-bool isFlat(const LocalSurface& surface, double tolerance) {
-  // Vertices of the patch, and of triangles with a side at the rim.
+bool isFlat(const LocalSurface& surface, double crease, double tolerance) {
   const std::vector<uint32_t>& t = surface.triangles;
   const size_t n = surface.positions.size() / 3, fixed = 3 * size_t(surface.fixedTriangles);
-  std::vector<uint8_t> isPatch(n, 0), counts(n, 0);
-  for (size_t h = fixed; h < t.size(); ++h) isPatch[t[h]] = counts[t[h]] = 1;
-  for (size_t h = 0; h < fixed; ++h)
-    if (isPatch[t[h]] && isPatch[t[nextInTriangle(uint32_t(h))]]) counts[t[prevInTriangle(uint32_t(h))]] = 1;
-  const auto at = [&](uint32_t v) { return Vec3{surface.positions[3 * v], surface.positions[3 * v + 1], surface.positions[3 * v + 2]}; };
+  const auto at = [&](uint32_t v) {
+    return Vec3{surface.positions[3 * v], surface.positions[3 * v + 1],
+                surface.positions[3 * v + 2]};
+  };
+  std::vector<uint8_t> isPatch(n, 0);
+  for (size_t h = fixed; h < t.size(); ++h) isPatch[t[h]] = 1;
   Vec3 across{0, 0, 0}, middle{0, 0, 0};
   double number = 0, extent = 0;
-  for (size_t h = fixed; h < t.size(); h += 3) across = across + cross(at(t[h + 1]) - at(t[h]), at(t[h + 2]) - at(t[h]));
+  for (size_t h = fixed; h < t.size(); h += 3)
+    across = across + cross(at(t[h + 1]) - at(t[h]), at(t[h + 2]) - at(t[h]));
   for (uint32_t v = 0; v < n; ++v)
-    if (counts[v]) middle = middle + at(v), ++number;
+    if (isPatch[v]) middle = middle + at(v), ++number;
   const double l = length(across);
   if (number == 0 || !(l > 0)) return false;
   middle = (1 / number) * middle, across = (1 / l) * across;
   for (uint32_t v = 0; v < n; ++v)
-    if (counts[v]) extent = std::fmax(extent, distance(at(v), middle));
+    if (isPatch[v]) extent = std::fmax(extent, distance(at(v), middle));
+  const auto isInPlane = [&](uint32_t v) {
+    return std::fabs(dot(at(v) - middle, across)) <= tolerance * extent;
+  };
   for (uint32_t v = 0; v < n; ++v)
-    if (counts[v] && std::fabs(dot(at(v) - middle, across)) > tolerance * extent) return false;
-  return true;
+    if (isPatch[v] && !isInPlane(v)) return false;
+  double inPlane = 0, bent = 0;
+  for (uint32_t h = 0; h < fixed; ++h) {
+    const uint32_t a = t[h], b = t[nextInTriangle(h)], c = t[prevInTriangle(h)];
+    if (!isPatch[a] || !isPatch[b]) continue;
+    const double side = distance(at(a), at(b));
+    if (isInPlane(c))
+      inPlane += side;
+    else if (crease > 0 && angleBetween(across, cross(at(b) - at(a), at(c) - at(a))) > crease)
+      bent += side;
+    else
+      return false;
+  }
+  return inPlane > 0 && 3 * inPlane >= bent;
 }
 
 }  // namespace sf

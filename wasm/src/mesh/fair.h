@@ -15,9 +15,11 @@
 namespace sf {
 
 struct FairOptions {
-  uint32_t order = 3;   // k: 1 least area, 2 least bending, 3 least variation of curvature
-  uint32_t rounds = 3;  // how often weights are taken from the surface that came out
+  uint32_t order = 3;           // k: 1 least area, 2 least bending, 3 least variation of curvature
+  uint32_t rounds = 3;          // how often weights are taken from the surface that came out
   uint32_t curvatureSteps = 4;  // k = 3: steps to the least variation of mean curvature, at most
+  double crease =
+      0;  // radians: where the surroundings turn more, curvature is not known; 0: nowhere
 };
 
 struct Fairness {
@@ -31,12 +33,16 @@ struct Fairness {
 /// Errors: OutOfMemory, Stopped; the surface is then as it was.
 Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairness& result);
 
+/// From this roughness on, k = 2 comes closer to what was there than k = 3.
+constexpr double kRough = 1.2;
+
 /// How rough the surroundings are: by how much the mean curvature differs from vertex to vertex, as an angle in
 /// radians. Near 0 for smooth surfaces, however curved. 0 without surroundings. O(n) time. False when the work ended.
 bool roughness(const LocalSurface& surface, Work& work, double& result);
 
-/// Whether the rim and the triangles along it lie in one plane, within `tolerance` of their extent: a patch
-/// without vertices of its own is then exact, and nothing should bend it.
-bool isFlat(const LocalSurface& surface, double tolerance = 1e-5);
+/// Whether the patch and the triangles along its rim lie in one plane, within `tolerance` of the patch's extent: it
+/// is then exact, and nothing should bend it. Up to three quarters of the rim may be a crease instead, where the
+/// surface turns by more than `crease` radians (0: none).
+bool isFlat(const LocalSurface& surface, double crease = 0.7, double tolerance = 1e-5);
 
 }  // namespace sf

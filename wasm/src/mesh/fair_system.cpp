@@ -69,7 +69,8 @@ void FairSystem::forces(uint32_t order, ArrayView<const Vec3> x) {
 }
 
 /// The matrix of the unknowns: the outer one at both ends, the inner Laplacian between.
-bool FairSystem::assemble(uint32_t order, const SparseRows& outer, SparseRows& matrix, Charge& charge) {
+bool FairSystem::assemble(uint32_t order, const SparseRows& outer, SparseRows& matrix,
+                          Charge& charge) {
   const size_t n = outer.size();
   if (!charge.add(n * 2 * 9)) return false;
   RowSum sum(n), product(n);
@@ -88,7 +89,9 @@ bool FairSystem::assemble(uint32_t order, const SparseRows& outer, SparseRows& m
     }
     for (const uint32_t c : sum.columns) {
       if (numberOf_[c] == kNone) continue;
-      if (!push(matrix.columns, numberOf_[c], charge) || !push(matrix.values, sum.values[c], charge)) return false;
+      if (!push(matrix.columns, numberOf_[c], charge) ||
+          !push(matrix.values, sum.values[c], charge))
+        return false;
     }
     matrix.starts.push_back(uint32_t(matrix.columns.size()));
     if (!work_.tick(order * order * 200)) return false;
@@ -100,7 +103,8 @@ bool FairSystem::solve(uint32_t order, ArrayView<Vec3> x) {
   if (unknowns_.empty()) return true;
   Charge charge(work_);
   SparseRows matrix;
-  if (!charge.add(uint64_t(unknowns_.size()) * 2 * sizeof(Vec3)) || !assemble(order, laplacian_.whole, matrix, charge))
+  if (!charge.add(uint64_t(unknowns_.size()) * 2 * sizeof(Vec3)) ||
+      !assemble(order, laplacian_.whole, matrix, charge))
     return false;
   std::vector<Vec3> places, step(unknowns_.size());
   for (const uint32_t v : unknowns_) places.push_back(x[v]);
@@ -132,7 +136,8 @@ double FairSystem::variation(ArrayView<const Vec3> x, ArrayView<const uint32_t> 
   normals_.assign(n, Vec3{0, 0, 0}), curvature_.assign(n, 0);
   for (uint32_t h = 0; h < triangles.size(); ++h) {
     const uint32_t v = triangles[h];
-    const Vec3 a = x[triangles[nextInTriangle(h)]] - x[v], b = x[triangles[prevInTriangle(h)]] - x[v];
+    const Vec3 a = x[triangles[nextInTriangle(h)]] - x[v],
+               b = x[triangles[prevInTriangle(h)]] - x[v];
     // Max's weights, which give the normals of spheres.
     const double square = dot(a, a) * dot(b, b);
     if (square > 0) normals_[v] = normals_[v] + (1 / square) * cross(a, b);
@@ -146,8 +151,39 @@ double FairSystem::variation(ArrayView<const Vec3> x, ArrayView<const uint32_t> 
   double sum = 0;
   for (uint32_t v = 0; v < n; ++v)
     for (uint32_t e = laplacian_.inner.starts[v]; e < laplacian_.inner.starts[v + 1]; ++e)
-      sum += curvature_[v] * laplacian_.inner.values[e] * (curvature_[laplacian_.inner.columns[e]] - curvature_[v]);
+      sum += curvature_[v] * laplacian_.inner.values[e] *
+             (curvature_[laplacian_.inner.columns[e]] - curvature_[v]);
   return sum;
+}
+
+/// The Laplacian less M |A|^2, where |A|^2 is the sum of the squared principal curvatures, by weights also the square
+/// of the gradient of the normals. A shift f along the normals changes M times the curvature by this times f.
+SparseRows FairSystem::bentLaplacian() const {
+  SparseRows rows = laplacian_.whole;
+  for (uint32_t v = 0; v < rows.size(); ++v) {
+    double bent = 0;
+    for (uint32_t e = rows.starts[v] + 1; e < rows.starts[v + 1]; ++e)
+      bent -= rows.values[e] * (1 - dot(normals_[v], normals_[rows.columns[e]]));
+    rows.values[rows.starts[v]] -= bent;
+  }
+  return rows;
+}
+
+/// Solves for a shift along the normals, and moves by it.
+///   step  [u] the right-hand side, in x
+bool FairSystem::shiftAlongNormals(const SparseRows& matrix, std::vector<Vec3>& step,
+                                   ArrayView<Vec3> x, double& most) {
+  std::vector<Vec3> places;
+  for (const uint32_t v : unknowns_) places.push_back(x[v]);
+  SparseCholesky cholesky(work_);
+  if (!cholesky.factor(matrix, places)) return false;
+  cholesky.solve(step);
+  for (size_t u = 0; u < unknowns_.size(); ++u) {
+    const uint32_t v = unknowns_[u];
+    x[v] = x[v] + step[u].x * normals_[v];
+    most = std::fmax(most, std::fabs(step[u].x));
+  }
+  return work_.tick(uint32_t(x.size()) * 100);
 }
 
 bool FairSystem::stepToLeastVariation(ArrayView<Vec3> x, double& most) {
@@ -155,40 +191,41 @@ bool FairSystem::stepToLeastVariation(ArrayView<Vec3> x, double& most) {
   if (unknowns_.empty()) return true;
   const uint32_t n = uint32_t(x.size());
   Charge charge(work_);
-  SparseRows matrix, outer;
-  if (!charge.add(uint64_t(laplacian_.whole.columns.size()) * 12 + uint64_t(n) * 12 + unknowns_.size() * 2 * sizeof(Vec3)))
+  if (!charge.add(uint64_t(laplacian_.whole.columns.size()) * 12 + uint64_t(n) * 12 +
+                  unknowns_.size() * 2 * sizeof(Vec3)))
     return false;
-  // A shift f along the normals changes the curvature by M^-1 L f - |A|^2 f, where |A|^2 is the sum of the squared
-  // principal curvatures, and by weights also the square of the gradient of the normals.
-  outer = laplacian_.whole;
-  for (uint32_t v = 0; v < n; ++v) {
-    double bent = 0;
-    for (uint32_t e = outer.starts[v] + 1; e < outer.starts[v + 1]; ++e)
-      bent -= outer.values[e] * (1 - dot(normals_[v], normals_[outer.columns[e]]));
-    outer.values[outer.starts[v]] -= bent;
-  }
+  const SparseRows outer = bentLaplacian();
+  SparseRows matrix;
   if (!assemble(3, outer, matrix, charge)) return false;
-  std::vector<Vec3> places, step(unknowns_.size());
-  for (const uint32_t v : unknowns_) places.push_back(x[v]);
-  SparseCholesky cholesky(work_);
-  if (!cholesky.factor(matrix, places)) return false;
-
   for (uint32_t v = 0; v < n; ++v) flow_[v] = {curvature_[v], 0, 0};
   multiply(laplacian_.inner, flow_, next_);
   for (uint32_t v = 0; v < n; ++v) next_[v] = inverseMass_[v] * next_[v];
+  std::vector<Vec3> step(unknowns_.size());
   for (size_t u = 0; u < unknowns_.size(); ++u) {
     double sum = 0;
     for (uint32_t e = outer.starts[unknowns_[u]]; e < outer.starts[unknowns_[u] + 1]; ++e)
       sum += outer.values[e] * next_[outer.columns[e]].x;
     step[u] = {-sum, 0, 0};
   }
-  cholesky.solve(step);
+  return shiftAlongNormals(matrix, step, x, most);
+}
+
+bool FairSystem::stepToMinimalSurface(ArrayView<Vec3> x, double& most) {
+  most = 0;
+  if (unknowns_.empty()) return true;
+  Charge charge(work_);
+  if (!charge.add(uint64_t(laplacian_.whole.columns.size()) * 12 + x.size() * 12 +
+                  unknowns_.size() * 2 * sizeof(Vec3)))
+    return false;
+  SparseRows matrix;
+  if (!assemble(1, bentLaplacian(), matrix, charge)) return false;
+  multiply(laplacian_.whole, x, flow_);
+  std::vector<Vec3> step(unknowns_.size());
   for (size_t u = 0; u < unknowns_.size(); ++u) {
     const uint32_t v = unknowns_[u];
-    x[v] = x[v] + step[u].x * normals_[v];
-    most = std::fmax(most, std::fabs(step[u].x));
+    step[u] = {-dot(normals_[v], flow_[v]), 0, 0};
   }
-  return work_.tick(n * 100);
+  return shiftAlongNormals(matrix, step, x, most);
 }
 
 }  // namespace sf

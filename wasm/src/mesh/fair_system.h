@@ -34,9 +34,15 @@ class FairSystem {
   ///   most  out: the largest distance moved
   bool stepToLeastVariation(ArrayView<Vec3> x, double& most);
 
+  /// One step of Newton towards a minimal surface, along the normals. After variation(x). False as well where the
+  /// surface is no stable film: the second variation of its area has a negative direction.
+  bool stepToMinimalSurface(ArrayView<Vec3> x, double& most);
+
  private:
+  SparseRows bentLaplacian() const;
+  bool shiftAlongNormals(const SparseRows& matrix, std::vector<Vec3>& step, ArrayView<Vec3> x,
+                         double& most);
   bool assemble(uint32_t order, const SparseRows& outer, SparseRows& matrix, Charge& charge);
-  bool prepare();
   void forces(uint32_t order, ArrayView<const Vec3> x);
 
   const Laplacian& laplacian_;

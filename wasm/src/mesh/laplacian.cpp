@@ -164,7 +164,7 @@ bool assemble(const Intrinsic& surface, uint32_t n, ArrayView<const uint8_t> isL
 }  // namespace
 
 bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t> triangles,
-                    Work& work, Laplacian& result) {
+                    ArrayView<const uint8_t> creased, Work& work, Laplacian& result) {
   const uint32_t n = uint32_t(positions.size() / 3), m = uint32_t(triangles.size() / 3);
   Charge charge(work);
   // Corners, twins, lengths, the stack, and entries of one matrix, with the search for twins less.
@@ -179,6 +179,8 @@ bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t>
   for (uint32_t h = 0; h < 3 * m; ++h)
     if (surface.mesh.twins[h] == kNone)
       result.isBoundary[triangles[h]] = result.isBoundary[triangles[nextInTriangle(h)]] = 1;
+  for (size_t v = 0; v < creased.size(); ++v)
+    if (creased[v]) result.isBoundary[v] = 1;
   if (!makeDelaunay(surface, work)) return false;
 
   // Areas of Voronoi cells, which in a Delaunay triangulation are positive: with them the curvature of a sphere

@@ -143,7 +143,7 @@ bool SparseCholesky::dissect(const SparseRows& matrix, ArrayView<const Vec3> pla
   const auto before = [](const Place& a, const Place& b) {
     return a.key < b.key || (a.key == b.key && a.unknown < b.unknown);
   };
-  sort(set.begin(), set.end(), before);
+  sf::sort(set.begin(), set.end(), before);
   const size_t half = set.size() / 2;
   const uint32_t left = ++stamp_, right = ++stamp_;
   for (size_t i = 0; i < set.size(); ++i) side_[set[i].unknown] = i < half ? left : right;
