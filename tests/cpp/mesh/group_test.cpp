@@ -114,6 +114,19 @@ TEST_CASE("groupRims: islands go with the rim around them, which comes first") {
   CHECK(told(mesh) == "island 4");
 }
 
+TEST_CASE("groupRims: islands in the shade of others go with the hole that looks at them") {
+  // A large hole, a row of large islands, and small ones between them.
+  const TestMesh mesh = without(saddleMesh(80, 0.1), [](Vec3 p) {
+    if (std::fabs(p.x) > 0.8 || std::fabs(p.y) > 0.8) return false;
+    for (const double x : {-0.5, 0.0, 0.5}) {
+      if (std::fabs(p.x - x) < 0.2 && std::fabs(std::fabs(p.y) - 0.35) < 0.25) return false;
+      if (std::fabs(p.x - x) < 0.05 && std::fabs(p.y) < 0.05) return false;
+    }
+    return true;
+  });
+  CHECK(told(mesh) == "island 10, open 1");
+}
+
 TEST_CASE("groupRims: an island in a hole of an island makes two groups") {
   TestMesh mesh = without(sphereMesh(5), isBetween({0, 0, 1}, 0.15, 0.3));
   mesh = without(mesh, isBetween({0, 0, 1}, 0.5, 0.8));
