@@ -127,6 +127,22 @@ TEST_CASE("groupRims: islands in the shade of others go with the hole that looks
   CHECK(told(mesh) == "island 10, open 1");
 }
 
+TEST_CASE("groupRims: an island that touches the rim around it goes with it") {
+  const TestMesh mesh = without(saddleMesh(16, 0.1), [](Vec3 p) {
+    const bool isIsland = p.x > 0 && p.y > 0 && p.x < 0.25 && p.y < 0.25;
+    const bool isHole = std::fabs(p.x) < 0.5 && std::fabs(p.y) < 0.5;
+    return isHole && !isIsland && !(p.x < 0 && p.y < 0);
+  });
+  CHECK(told(mesh) == "island 2, open 1");
+}
+
+TEST_CASE("groupRims: two holes that touch in a vertex stay two") {
+  const TestMesh mesh = without(saddleMesh(16, 0.2), [](Vec3 p) {
+    return p.x * p.y > 0 && std::fabs(p.x) < 0.5 && std::fabs(p.y) < 0.5;
+  });
+  CHECK(told(mesh) == "alone 1, alone 1, open 1");
+}
+
 TEST_CASE("groupRims: an island in a hole of an island makes two groups") {
   TestMesh mesh = without(sphereMesh(5), isBetween({0, 0, 1}, 0.15, 0.3));
   mesh = without(mesh, isBetween({0, 0, 1}, 0.5, 0.8));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "base/sort.h"
@@ -31,7 +30,8 @@ class Grouper {
         temporary_(work),
         g_(result) {}
 
-  bool joinByVotes();
+  /// Memory of `doubts` is charged to `charge`.
+  bool joinByVotes(Charge& charge);
   bool group();
 
  private:
@@ -55,7 +55,7 @@ class Grouper {
   bool joinByGroups();
   bool joinIslands();
   bool isIsland(uint32_t rim) const { return turnings_[rim] < -kPi; }
-  bool findDoubts();
+  bool findDoubts(Charge& charge);
   void join();
   void finish(uint32_t first, uint32_t root);
   double turningOf(uint32_t rim) const;
@@ -73,7 +73,7 @@ class Grouper {
   std::vector<double> scores_;    // of groups, at their roots
 };
 
-bool Grouper::joinByVotes() {
+bool Grouper::joinByVotes(Charge& charge) {
   if (!reserveParents()) return false;
   separateAll();
   findTurnings();
@@ -83,7 +83,7 @@ bool Grouper::joinByVotes() {
     const uint32_t p = rootOf(v.first), q = rootOf(v.second);
     if (p != q) unite(p, q);
   }
-  return joinByGroups() && joinIslands() && findDoubts();
+  return joinByGroups() && joinIslands() && findDoubts(charge);
 }
 
 /// An island in the midst of others looks at all of them, and at the outer rim, a little each.
@@ -195,7 +195,7 @@ bool Grouper::joinIslands() {
   return true;
 }
 
-bool Grouper::findDoubts() {
+bool Grouper::findDoubts(Charge& charge) {
   separateAll();
   for (const RimVote& v : g_.votes)
     if (v.vote > kDoubtTo) {
@@ -205,7 +205,7 @@ bool Grouper::findDoubts() {
   for (uint32_t i = 0; i < g_.votes.size(); ++i) {
     const RimVote& v = g_.votes[i];
     if (v.vote < kDoubtFrom || v.vote > kDoubtTo || rootOf(v.first) == rootOf(v.second)) continue;
-    if (!push(g_.doubts, i, temporary_)) return false;
+    if (!push(g_.doubts, i, charge)) return false;
   }
   return true;
 }
@@ -282,7 +282,10 @@ void Grouper::finish(uint32_t first, uint32_t root) {
     const uint32_t r = g_.rims[i];
     const Rim& rim = rims_.rims[r];
     hasIsland |= isIsland(r);
-    if (rim.length > rims_.rims[g_.rims[outer]].length) outer = i;
+    // The longest that is no island: a ragged island can be longer than the rim around it.
+    const uint32_t best = g_.rims[outer];
+    const bool isLonger = rim.length > rims_.rims[best].length;
+    if (isIsland(r) == isIsland(best) ? isLonger : isIsland(best)) outer = i;
     whole += rim.length, open += rim.length * g_.openness[r];
     isSeam &= rim.cutEdges > 0;
     crossesSeam |= rim.crossesSeam;
@@ -319,7 +322,7 @@ bool groupRims(const MeshView& mesh, const Adjacency& adjacency, const Rims& rim
   if (!castVotes(mesh, rims, work, charge, result)) return false;
   // starts, rims, kinds, scores, flags: no more groups than rims, now and later.
   if (!charge.add(rims.count() * (2 * sizeof(uint32_t) + sizeof(double) + 3))) return false;
-  return Grouper(mesh, adjacency, rims, work, result).joinByVotes() &&
+  return Grouper(mesh, adjacency, rims, work, result).joinByVotes(charge) &&
          regroupRims(mesh, adjacency, rims, work, result);
 }
 
