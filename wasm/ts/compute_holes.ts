@@ -3,7 +3,7 @@ import { readFillArrays, readHolesArrays, type FillArrays, type HolesArrays } fr
 import { meshError } from './messages.js';
 import type { Limits } from './options.js';
 import { callCore, kDefaultMemoryBytes, shared, type CoreArgument } from './runtime.js';
-import type { FillOptions, ProgressListener } from './types.js';
+import type { ProgressListener } from './types.js';
 
 /** A mesh whose arrays are of the right kinds. */
 export interface FlatMesh {
