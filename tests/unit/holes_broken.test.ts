@@ -49,7 +49,7 @@ const broken: [string, Mesh, DefectKind[]][] = [
   ['two meshes that share a vertex', bowTie(), ['non-manifold-vertex']],
   ['a Möbius band', moebius(24), ['not-orientable']],
   ['a soup', soup(kPierced), []],
-  ['all faces degenerate', { positions: kPierced.positions, faces: kPierced.faces.map((_, i) => Math.floor(i / 3)) }, ['degenerate-face', 'unused-vertex']],
+  ['all faces degenerate', { positions: kPierced.positions, faces: kPierced.faces.map((_, i) => Math.floor(i / 3) % n) }, ['degenerate-face']],
   ['all vertices in one place', { positions: new Float64Array(3 * n).fill(1), faces: kPierced.faces }, []],
   ['all vertices on a line', { positions: kPierced.positions.map((x, i) => (i % 3 === 0 ? x : 0)), faces: kPierced.faces }, []],
   ['all vertices in a plane', { positions: kPierced.positions.map((x, i) => (i % 3 === 2 ? 0 : x)), faces: kPierced.faces }, []],
@@ -80,8 +80,11 @@ function tJunction(): Mesh {
   return withVertices({ positions, faces: faces.slice(3) }, [middle], p, m, r, m, q, r);
 }
 
-/** Expects what holds of every result, whatever the mesh. */
-function expectSound(mesh: Mesh, options: FillOptions): FillResult {
+/**
+ * Expects what holds of every result, whatever the mesh.
+ * @param oneWay whether all parts of it have one orientation: if not, a patch can run against one of its rims
+ */
+function expectSound(mesh: Mesh, options: FillOptions, oneWay = true): FillResult {
   const report = findHoles(mesh);
   const named = report.groups.flatMap(({ loops }) => loops).sort((x, y) => x - y);
   expect(named).toEqual(report.loops.map((_, i) => i));
@@ -105,7 +108,8 @@ function expectSound(mesh: Mesh, options: FillOptions): FillResult {
       const { vertices } = report.loops[loop];
       return Array.from(vertices, (v, i) => `${v} ${vertices[(i + 1) % vertices.length]}`);
     });
-    expect([...open].sort()).toEqual(rim.sort());
+    const asTold = (edge: string): string => (oneWay ? edge : edge.split(' ').sort().join(' '));
+    expect([...open].map(asTold).sort()).toEqual(rim.map(asTold).sort());
   });
   return result;
 }
@@ -171,7 +175,7 @@ describe('faces deleted at random', () => {
       const more = Array.from({ length: 4 }, () => faceOf({ positions, faces }, random.below(count))).flat();
       const given = flipped(withFaces({ positions, faces }, ...more), random.below(count), random.below(count));
       try {
-        expectSound(given, { fillOpenRims: random.chance(0.5) });
+        expectSound(given, { fillOpenRims: random.chance(0.5) }, false);
       } catch (cause) {
         throw new Error(`${name}, seed ${seed}`, { cause });
       }
