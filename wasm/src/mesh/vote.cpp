@@ -17,7 +17,7 @@ constexpr double kTurnOfOpen = 2.8;
 constexpr double kAreaOfSlit = 1e-5, kTurnAcrossSlit = 3.5, kRotationAcrossSlit = 1;
 /// The logarithm of how many times cheaper the partner's own best may be. An edge that has something better
 /// is no partner: the holes of one thing are of no use to the rim of another beside it.
-constexpr double kUnrequited = 2;
+constexpr double kUnrequited = 1.5;
 /// An edge looks for partners on rims not farther than this many radii of its own.
 constexpr double kReach = 3;
 
