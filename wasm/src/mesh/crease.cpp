@@ -30,6 +30,7 @@ class Parting {
     findEnds();
     if (ends_.size() == 2) joinTwo();
     if (ends_.size() == 3) joinThree();
+    if (ends_.size() == 4) joinFour();
     for (const auto& part : result_.parts)
       if (part.size() < 3) return {};
     return std::move(result_);
@@ -79,19 +80,74 @@ class Parting {
     result_.parts.push_back(std::move(part));
   }
 
-  /// Joins two ends by a curve that leaves both as their creases do.
-  void joinTwo() {
-    const CreaseEnd &a = ends_[0], &b = ends_[1];
+  /// Points on the curve between two ends that leaves both as their creases do, from the first to the second.
+  std::vector<uint32_t> join(const CreaseEnd& a, const CreaseEnd& b) {
     const Vec3 p = at(vertexAt(a.place)), q = at(vertexAt(b.place));
     const double l = length(q - p);
-    const std::vector<uint32_t> there = points(l, [&](double s) {
+    return points(l, [&](double s) {
       const double s2 = s * s, s3 = s2 * s;
       return (2 * s3 - 3 * s2 + 1) * p + ((s3 - 2 * s2 + s) * l) * a.direction + (3 * s2 - 2 * s3) * q -
              ((s3 - s2) * l) * b.direction;
     });
+  }
+
+  /// How far two ends are from each other, and how much a crease between them would have to turn.
+  double costOf(const CreaseEnd& a, const CreaseEnd& b) const {
+    const Vec3 d = at(vertexAt(b.place)) - at(vertexAt(a.place));
+    return length(d) * std::exp(angleBetween(a.direction, d) + angleBetween(b.direction, -d));
+  }
+
+  /// Joins four ends in two pairs that do not cross, which leaves a part between them.
+  void joinFour() {
+    std::vector<CreaseEnd> e = ends_;
+    if (costOf(e[1], e[2]) + costOf(e[3], e[0]) < costOf(e[0], e[1]) + costOf(e[2], e[3])) std::rotate(e.begin(), e.begin() + 1, e.end());
+    const std::vector<uint32_t> first = join(e[0], e[1]), second = join(e[2], e[3]);
+    addPart(e[0], e[1], {first.rbegin(), first.rend()});
+    addPart(e[2], e[3], {second.rbegin(), second.rend()});
+    addPart(e[1], e[2], second);
+    std::vector<PartCorner> between = std::move(result_.parts.back());
+    result_.parts.pop_back();
+    addPart(e[3], e[0], first);
+    std::vector<PartCorner>& last = result_.parts.back();
+    last.insert(last.begin(), between.begin(), between.end());
+  }
+
+  /// Joins two ends by a curve.
+  void joinTwo() {
+    const CreaseEnd &a = ends_[0], &b = ends_[1];
+    const Vec3 p = at(vertexAt(a.place)), q = at(vertexAt(b.place));
+    const std::vector<uint32_t> there = join(a, b);
+    // Where the rim itself runs along the crease, there is one part, on the other side of it.
+    for (const bool isFirst : {true, false}) {
+      const CreaseEnd &from = isFirst ? a : b, &to = isFirst ? b : a;
+      if (!runsAlong(from, to, p, q, there)) continue;
+      result_.points.clear();
+      addPart(to, from, {});
+      std::vector<PartCorner>& part = result_.parts.back();
+      for (uint32_t k = 1; (from.place + k) % count_ != to.place; ++k) part.push_back({kNone, vertexAt(from.place + k), kNone});
+      return;
+    }
     std::vector<uint32_t> back(there.rbegin(), there.rend());
     addPart(a, b, back);
     addPart(b, a, there);
+  }
+
+  /// Whether the rim from one end to another keeps to the curve between them.
+  bool runsAlong(const CreaseEnd& from, const CreaseEnd& to, Vec3 p, Vec3 q, const std::vector<uint32_t>& curve) const {
+    for (uint32_t k = 1; (from.place + k) % count_ != to.place; ++k) {
+      const Vec3 x = at(vertexAt(from.place + k));
+      double nearest = 1e300;
+      Vec3 before = p;
+      for (size_t i = 0; i <= curve.size(); ++i) {
+        const Vec3 after = i < curve.size() ? result_.points[curve[i]] : q;
+        const Vec3 d = after - before;
+        const double l = dot(d, d), t = l > 0 ? std::min(1.0, std::max(0.0, dot(x - before, d) / l)) : 0;
+        nearest = std::min(nearest, length(x - before - t * d));
+        before = after;
+      }
+      if (nearest > 0.25 * step_) return false;
+    }
+    return true;
   }
 
   /// Joins three ends at the point nearest to the lines on which they go on.

@@ -1,6 +1,6 @@
 // Creases that end at a rim are carried on through the hole, and the parts between them filled apart.
 //
-// Source: Liepa 2003 knows no creases; the pairing of two ends by a Hermite curve and of three by a corner is ours.
+// Source: Liepa 2003 knows no creases; pairs of ends joined by Hermite curves, and three ends by a corner, are ours.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -44,7 +44,7 @@ struct HoleParts {
   std::vector<Vec3> points;                    // on the creases
 };
 
-/// The parts of a hole with one rim at which two or three creases end; none where that is not so.
+/// The parts of a hole with one rim at which two, three or four creases end; none where that is not so.
 HoleParts partHole(const MeshView& mesh, const Rims& rims, uint32_t rim, const Creases& creases);
 
 }  // namespace sf

@@ -13,6 +13,8 @@ namespace {
 constexpr uint32_t kRings = 5;
 /// Rims up to this long are spanned among all triangles: beyond that Delaunay triangles do.
 constexpr uint32_t kMostForAll = 300;
+/// Angles along the rim below this are none.
+constexpr double kExact = 1e-3;
 /// Edges between faces that differ by more are creases, in radians: 40 degrees.
 constexpr double kCrease = 0.698;
 /// How often the way of fairing is halved before all of it is given up.
@@ -236,7 +238,7 @@ void HoleFiller::surround(Hole& hole) {
 }
 
 /// The mean angle between the patch and the faces along the rim.
-double HoleFiller::rimAngle(const Hole& hole) const {
+double HoleFiller::rimAngle(const Hole& hole, double* largest) const {
   const LocalSurface& s = hole.surface;
   // The corner after each.
   std::vector<uint32_t> next(hole.corners.size());
@@ -250,8 +252,9 @@ double HoleFiller::rimAngle(const Hole& hole) const {
       if (a >= hole.corners.size() || next[a] != b || hole.corners[a].edge == kNone) continue;
       const Vec3 n = rims_.normals[hole.corners[a].edge];
       if (dot(n, n) == 0) continue;
-      sum += angleBetween(n, normalOf(s.positions, s.triangles[t], s.triangles[t + 1], s.triangles[t + 2]));
-      ++count;
+      const double angle = angleBetween(n, normalOf(s.positions, s.triangles[t], s.triangles[t + 1], s.triangles[t + 2]));
+      if (largest) *largest = std::max(*largest, angle);
+      sum += angle, ++count;
     }
   return count ? sum / count : 0;
 }
@@ -366,10 +369,12 @@ Status HoleFiller::fillPart(Hole& hole, const FillOptions& options, FilledHole& 
   surround(hole);
   Status status = span(hole, options, result);
   if (status != Status::Ok || result.status == FillStatus::Failed) return status;
-  result.rimAngleBefore = rimAngle(hole);
+  double largest = 0;
+  result.rimAngleBefore = rimAngle(hole, &largest);
 
   LocalSurface& surface = hole.surface;
-  const bool isExact = isFlat(surface);
+  // What goes on everything around it as it was spanned, nothing should bend.
+  const bool isExact = largest < kExact || isFlat(surface);
   if (options.density > 0 && !isExact) {
     RefineOptions refining;
     refining.density = options.density;
@@ -401,7 +406,7 @@ Status HoleFiller::fillPart(Hole& hole, const FillOptions& options, FilledHole& 
   }
   result.movedLess = 1 - share;
   if (!result.intersections.empty()) result.status = FillStatus::SelfIntersecting;
-  result.rimAngleAfter = rimAngle(hole);
+  result.rimAngleAfter = rimAngle(hole, nullptr);
   return append(hole) ? Status::Ok : work_.status();
 }
 

@@ -79,7 +79,7 @@ class HoleFiller {
   bool append(const Hole& hole);
   bool findPairs(const Hole& hole, size_t most, std::vector<FacePair>& pairs);
   bool findOwnPairs(uint32_t from, uint32_t to, std::vector<FacePair>& pairs);
-  double rimAngle(const Hole& hole) const;
+  double rimAngle(const Hole& hole, double* largest) const;
   bool isFaceOfMesh(uint32_t a, uint32_t b, uint32_t c) const;
   uint32_t faceCount() const { return uint32_t((mesh_.faces.size() + newFaces_.size()) / 3); }
   uint32_t vertexCount() const { return uint32_t((mesh_.positions.size() + newPositions_.size()) / 3); }
