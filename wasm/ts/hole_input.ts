@@ -67,6 +67,7 @@ function perHoleOf(value: unknown): Readonly<Record<number, HoleFillOptions>> {
   return Object.fromEntries(
     Object.entries(fields).map(([key, options]) => {
       const name = `perHole[${key}]`;
+      if (String(Number(key) >>> 0) !== key) throw new SoapfilmError('bad-option', `\`${name}\` is not the number of a hole`);
       return [key, patchOptionsOf(optionsOf(options, kHoleFillOptions, name), `${name}.`)];
     }),
   );
