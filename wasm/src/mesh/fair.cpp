@@ -22,7 +22,7 @@ ArrayView<const uint32_t> surroundings(const LocalSurface& surface) {
 
 class Fairing {
  public:
-  Fairing(const LocalSurface& surface, Work& work) : surface_(surface), work_(work) {}
+  Fairing(const LocalSurface& surface, Work& work) : surface_(surface), work_(work) { findNear(); }
 
   /// Marks the vertices of the surroundings where faces meet at more than an angle.
   bool findCreases(ArrayView<const Vec3> at, double angle);
@@ -33,6 +33,7 @@ class Fairing {
   void leastVariation(uint32_t steps, std::vector<Vec3>& at);
 
  private:
+  void findNear();
   bool measure(ArrayView<const Vec3> at);
   bool isTame(ArrayView<const Vec3> at) const {
     for (const Vec3& p : at)
@@ -43,10 +44,29 @@ class Fairing {
 
   const LocalSurface& surface_;
   Work& work_;
+  std::vector<uint32_t> near_;  // [3m] triangles that the system knows of
   std::vector<double> flat_;
   std::vector<uint8_t> creased_;  // [n] or empty
   Laplacian laplacian_;
 };
+
+/// Rows of vertices at most two edges away from a free one are all that k = 3 takes.
+void Fairing::findNear() {
+  const std::vector<uint32_t>& t = surface_.triangles;
+  std::vector<uint8_t> isNear(surface_.positions.size() / 3, 0);
+  for (size_t v = surface_.fixedVertices; v < isNear.size(); ++v) isNear[v] = 1;
+  std::vector<uint32_t> ring;
+  for (int r = 0; r < 2; ++r) {
+    ring.clear();
+    for (size_t h = 0; h < t.size(); h += 3)
+      if (isNear[t[h]] || isNear[t[h + 1]] || isNear[t[h + 2]])
+        ring.insert(ring.end(), {t[h], t[h + 1], t[h + 2]});
+    for (const uint32_t v : ring) isNear[v] = 1;
+  }
+  for (size_t h = 0; h < t.size(); h += 3)
+    if (isNear[t[h]] || isNear[t[h + 1]] || isNear[t[h + 2]])
+      near_.insert(near_.end(), {t[h], t[h + 1], t[h + 2]});
+}
 
 bool Fairing::findCreases(ArrayView<const Vec3> at, double angle) {
   const ArrayView<const uint32_t> around = surroundings(surface_);
@@ -68,7 +88,7 @@ bool Fairing::findCreases(ArrayView<const Vec3> at, double angle) {
 bool Fairing::measure(ArrayView<const Vec3> at) {
   flat_.clear();
   for (const Vec3& p : at) flat_.insert(flat_.end(), {p.x, p.y, p.z});
-  return buildLaplacian(flat_, surface_.triangles, creased_, work_, laplacian_);
+  return buildLaplacian(flat_, near_, creased_, work_, laplacian_);
 }
 
 uint32_t Fairing::solve(const FairOptions& options, std::vector<Vec3>& at) {
@@ -96,7 +116,7 @@ void Fairing::leastVariation(uint32_t steps, std::vector<Vec3>& at) {
   for (uint32_t i = 0, halvings = 0; i <= steps; ++i) {
     if (!measure(at)) return;
     FairSystem system(laplacian_, surface_.fixedVertices, work_);
-    const double now = system.variation(at, surface_.triangles);
+    const double now = system.variation(at, near_);
     if (i > 0 && !(now < least && isTame(at))) {
       // Too far: half of the step, or none.
       if (++halvings > 2) break;
@@ -119,7 +139,7 @@ Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairn
   const UnitBox box(surface.positions);
   if (n <= surface.fixedVertices || box.isPoint()) return work.status();
   Charge charge(work);
-  if (!charge.add(n * 300)) return work.status();
+  if (!charge.add(n * 300 + surface.triangles.size() * 8)) return work.status();
   std::vector<Vec3> at(n);
   for (size_t v = 0; v < n; ++v) at[v] = box.in(&surface.positions[3 * v]);
   Fairing fairing(surface, work);
