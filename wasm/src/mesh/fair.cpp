@@ -30,7 +30,8 @@ class Fairing {
   /// Solves `rounds` times, of the order asked for or the next lower one that works. Returns that order.
   uint32_t solve(const FairOptions& options, std::vector<Vec3>& at);
   /// Steps to the least variation of curvature, as long as they lead there.
-  void leastVariation(uint32_t steps, std::vector<Vec3>& at);
+  /// Returns whether any did.
+  bool leastVariation(uint32_t steps, std::vector<Vec3>& at);
 
  private:
   void findNear();
@@ -110,11 +111,12 @@ uint32_t Fairing::solve(const FairOptions& options, std::vector<Vec3>& at) {
   return order;
 }
 
-void Fairing::leastVariation(uint32_t steps, std::vector<Vec3>& at) {
+bool Fairing::leastVariation(uint32_t steps, std::vector<Vec3>& at) {
   std::vector<Vec3> best = at;
   double least = 0;
+  bool isBetter = false;
   for (uint32_t i = 0, halvings = 0; i <= steps; ++i) {
-    if (!measure(at)) return;
+    if (!measure(at)) return false;
     FairSystem system(laplacian_, surface_.fixedVertices, work_);
     const double now = system.variation(at, near_);
     if (i > 0 && !(now < least && isTame(at))) {
@@ -123,12 +125,14 @@ void Fairing::leastVariation(uint32_t steps, std::vector<Vec3>& at) {
       for (size_t v = surface_.fixedVertices; v < at.size(); ++v) at[v] = 0.5 * (at[v] + best[v]);
       continue;
     }
+    isBetter = isBetter || i > 0;
     least = now, best = at;
     double most;
     if (i == steps || !system.stepToLeastVariation(at, most)) break;
     if (most < kLastStep * std::sqrt(1.0 / double(at.size()))) steps = i + 1;
   }
   at = best;
+  return isBetter;
 }
 
 }  // namespace
@@ -144,8 +148,14 @@ Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairn
   for (size_t v = 0; v < n; ++v) at[v] = box.in(&surface.positions[3 * v]);
   Fairing fairing(surface, work);
   if (options.crease > 0 && !fairing.findCreases(at, options.crease)) return work.status();
-  const uint32_t order = fairing.solve(options, at);
-  if (order == 3 && options.curvatureSteps > 0) fairing.leastVariation(options.curvatureSteps, at);
+  uint32_t order = fairing.solve(options, at);
+  if (order == 3 && options.curvatureSteps > 0 &&
+      !fairing.leastVariation(options.curvatureSteps, at) && options.rounds == 0) {
+    // Something has to smooth it.
+    FairOptions once = options;
+    once.rounds = 1;
+    order = fairing.solve(once, at);
+  }
   if (!work.going() || order == 0) return work.status();
   result.order = order;
   for (size_t v = surface.fixedVertices; v < n; ++v) {
