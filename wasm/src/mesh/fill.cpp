@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/fair.h"
-#include "mesh/refine.h"
+#include "mesh/smooth_patch.h"
 
 namespace sf {
 namespace {
@@ -17,8 +16,6 @@ constexpr uint32_t kMostForAll = 300;
 constexpr double kExact = 1e-3;
 /// Edges between faces that differ by more are creases, in radians: 40 degrees.
 constexpr double kCrease = 0.698;
-/// How often the way of fairing is halved before all of it is given up.
-constexpr int kHalvings = 4;
 /// More pairs of intersecting faces are not listed.
 constexpr size_t kMostPairs = 10000;
 
@@ -373,38 +370,24 @@ Status HoleFiller::fillPart(Hole& hole, const FillOptions& options, FilledHole& 
   result.rimAngleBefore = rimAngle(hole, &largest);
 
   LocalSurface& surface = hole.surface;
+  FairOptions fairing;
+  fairing.order = 0;
   // What goes on everything around it as it was spanned, nothing should bend.
   const bool isExact = largest < kExact || isFlat(surface);
-  if (options.density > 0 && !isExact) {
+  if (!isExact) {
+    if (options.fairing == Fairing::Auto && !findFairOrder(surface, 0, work_, fairing.order)) return work_.status();
+    if (options.fairing == Fairing::Bending) fairing.order = 2;
+    if (options.fairing == Fairing::Curvature) fairing.order = 3;
     RefineOptions refining;
     refining.density = options.density;
     refining.maxNewVertices = options.maxNewVertices;
-    status = refine(surface, refining, work_);
+    Smoothed smoothed;
+    status = smoothPatchApart(surface, refining, fairing, mesh_, tree_, options.inFloats, work_, smoothed);
     if (status != Status::Ok) return status;
+    result.fairnessUsed = smoothed.fairness.order;
+    result.movedLess = 1 - smoothed.share;
   }
-  const std::vector<double> spanned = surface.positions;
-  if (options.fairing != Fairing::None && !isExact && surface.positions.size() > 3 * size_t(surface.fixedVertices)) {
-    FairOptions fairing;
-    double rough = 0;
-    if (options.fairing == Fairing::Auto && !roughness(surface, work_, rough)) return work_.status();
-    fairing.order = options.fairing == Fairing::Bending || rough > kRough ? 2 : 3;
-    Fairness fairness;
-    status = fair(surface, fairing, work_, fairness);
-    if (status != Status::Ok) return status;
-    result.fairnessUsed = fairness.order;
-  }
-
-  // As much of the fairing as goes without intersections.
-  const std::vector<double> faired = surface.positions;
-  double share = 1;
-  for (int halving = 0;; ++halving) {
-    if (!findPairs(hole, kMostPairs, result.intersections)) return work_.status();
-    if (result.intersections.empty() || result.fairnessUsed == 0 || share == 0 || faired.size() != spanned.size()) break;
-    share = halving < kHalvings ? share / 2 : 0;
-    for (size_t i = 3 * size_t(surface.fixedVertices); i < faired.size(); ++i)
-      surface.positions[i] = spanned[i] + share * (faired[i] - spanned[i]);
-  }
-  result.movedLess = 1 - share;
+  if (!findPairs(hole, kMostPairs, result.intersections)) return work_.status();
   if (!result.intersections.empty()) result.status = FillStatus::SelfIntersecting;
   result.rimAngleAfter = rimAngle(hole, nullptr);
   return append(hole) ? Status::Ok : work_.status();

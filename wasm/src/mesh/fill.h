@@ -2,8 +2,8 @@
 //
 // Source: Zou, Ju, Carr 2013, sec. 5: every hole with its islands is spanned by Delaunay triangles, with the angles to
 // the faces along the rim counted. Liepa 2003: refined and faired afterwards.
-// Differs: one rim is spanned among all triangles where that is quick. What intersects after fairing goes back, half
-// of the way at a time, to the surface that was spanned.
+// Differs: one rim is spanned among all triangles where that is quick. What would intersect after fairing goes only so
+// far that it does not.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -25,6 +25,7 @@ struct FillOptions {
   Fairing fairing = Fairing::Auto;
   double density = 1.4142135623730951;  // as in RefineOptions
   uint32_t maxNewVertices = 0xFFFFFFFFu;
+  bool inFloats = false;  // whether coordinates of new vertices are rounded to single precision
   bool creases = true;  // whether creases that end at the rim go on
 };
 
