@@ -22,7 +22,11 @@ Vec3 unit(Vec3 v) {
 class Parting {
  public:
   Parting(const MeshView& mesh, const Rims& rims, uint32_t rim, const Creases& creases)
-      : mesh_(mesh), rims_(rims), first_(rims.starts[rim]), count_(rims.starts[rim + 1] - first_), creases_(creases) {
+      : mesh_(mesh),
+        rims_(rims),
+        first_(rims.starts[rim]),
+        count_(rims.starts[rim + 1] - first_),
+        creases_(creases) {
     step_ = rims.rims[rim].length / count_;
   }
 
@@ -51,7 +55,8 @@ class Parting {
       creases_.others(others[0], further);
       further.erase(std::remove(further.begin(), further.end(), v), further.end());
       // As it bends, so it goes on.
-      if (further.size() == 1) direction = unit(last + 0.5 * (last - unit(at(others[0]) - at(further[0]))));
+      if (further.size() == 1)
+        direction = unit(last + 0.5 * (last - unit(at(others[0]) - at(further[0]))));
       ends_.push_back({i, direction});
     }
   }
@@ -86,8 +91,8 @@ class Parting {
     const double l = length(q - p);
     return points(l, [&](double s) {
       const double s2 = s * s, s3 = s2 * s;
-      return (2 * s3 - 3 * s2 + 1) * p + ((s3 - 2 * s2 + s) * l) * a.direction + (3 * s2 - 2 * s3) * q -
-             ((s3 - s2) * l) * b.direction;
+      return (2 * s3 - 3 * s2 + 1) * p + ((s3 - 2 * s2 + s) * l) * a.direction +
+             (3 * s2 - 2 * s3) * q - ((s3 - s2) * l) * b.direction;
     });
   }
 
@@ -100,7 +105,8 @@ class Parting {
   /// Joins four ends in two pairs that do not cross, which leaves a part between them.
   void joinFour() {
     std::vector<CreaseEnd> e = ends_;
-    if (costOf(e[1], e[2]) + costOf(e[3], e[0]) < costOf(e[0], e[1]) + costOf(e[2], e[3])) std::rotate(e.begin(), e.begin() + 1, e.end());
+    if (costOf(e[1], e[2]) + costOf(e[3], e[0]) < costOf(e[0], e[1]) + costOf(e[2], e[3]))
+      std::rotate(e.begin(), e.begin() + 1, e.end());
     const std::vector<uint32_t> first = join(e[0], e[1]), second = join(e[2], e[3]);
     addPart(e[0], e[1], {first.rbegin(), first.rend()});
     addPart(e[2], e[3], {second.rbegin(), second.rend()});
@@ -124,7 +130,8 @@ class Parting {
       result_.points.clear();
       addPart(to, from, {});
       std::vector<PartCorner>& part = result_.parts.back();
-      for (uint32_t k = 1; (from.place + k) % count_ != to.place; ++k) part.push_back({kNone, vertexAt(from.place + k), kNone});
+      for (uint32_t k = 1; (from.place + k) % count_ != to.place; ++k)
+        part.push_back({kNone, vertexAt(from.place + k), kNone});
       return;
     }
     std::vector<uint32_t> back(there.rbegin(), there.rend());
@@ -133,7 +140,8 @@ class Parting {
   }
 
   /// Whether the rim from one end to another keeps to the curve between them.
-  bool runsAlong(const CreaseEnd& from, const CreaseEnd& to, Vec3 p, Vec3 q, const std::vector<uint32_t>& curve) const {
+  bool runsAlong(const CreaseEnd& from, const CreaseEnd& to, Vec3 p, Vec3 q,
+                 const std::vector<uint32_t>& curve) const {
     for (uint32_t k = 1; (from.place + k) % count_ != to.place; ++k) {
       const Vec3 x = at(vertexAt(from.place + k));
       double nearest = 1e300;
@@ -141,7 +149,8 @@ class Parting {
       for (size_t i = 0; i <= curve.size(); ++i) {
         const Vec3 after = i < curve.size() ? result_.points[curve[i]] : q;
         const Vec3 d = after - before;
-        const double l = dot(d, d), t = l > 0 ? std::min(1.0, std::max(0.0, dot(x - before, d) / l)) : 0;
+        const double l = dot(d, d),
+                     t = l > 0 ? std::min(1.0, std::max(0.0, dot(x - before, d) / l)) : 0;
         nearest = std::min(nearest, length(x - before - t * d));
         before = after;
       }
@@ -155,18 +164,21 @@ class Parting {
     double m[3][3] = {}, r[3] = {};
     for (const CreaseEnd& end : ends_) {
       const Vec3 p = at(vertexAt(end.place));
-      const double d[3] = {end.direction.x, end.direction.y, end.direction.z}, c[3] = {p.x, p.y, p.z};
+      const double d[3] = {end.direction.x, end.direction.y, end.direction.z},
+                   c[3] = {p.x, p.y, p.z};
       for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) {
           const double q = (i == k) - d[i] * d[k];
           m[i][k] += q, r[i] += q * c[k];
         }
     }
-    const Vec3 a{m[0][0], m[1][0], m[2][0]}, b{m[0][1], m[1][1], m[2][1]}, c{m[0][2], m[1][2], m[2][2]}, s{r[0], r[1], r[2]};
+    const Vec3 a{m[0][0], m[1][0], m[2][0]}, b{m[0][1], m[1][1], m[2][1]},
+        c{m[0][2], m[1][2], m[2][2]}, s{r[0], r[1], r[2]};
     const double whole = dot(a, cross(b, c));
     // Lines that are nearly parallel meet nowhere.
     if (!(whole > 1e-3)) return;
-    const Vec3 corner = (1 / whole) * Vec3{dot(s, cross(b, c)), dot(a, cross(s, c)), dot(a, cross(b, s))};
+    const Vec3 corner =
+        (1 / whole) * Vec3{dot(s, cross(b, c)), dot(a, cross(s, c)), dot(a, cross(b, s))};
     const uint32_t centre = uint32_t(result_.points.size());
     result_.points.push_back(corner);
     std::vector<uint32_t> arms[3];
@@ -194,9 +206,14 @@ class Parting {
 
 }  // namespace
 
-Creases::Creases(const MeshView& mesh, const Adjacency& adjacency, const std::vector<uint32_t>& fanStarts,
-                 const std::vector<uint32_t>& fans, double angle)
-    : mesh_(mesh), adjacency_(adjacency), fanStarts_(fanStarts), fans_(fans), cosine_(std::cos(angle)) {}
+Creases::Creases(const MeshView& mesh, const Adjacency& adjacency,
+                 const std::vector<uint32_t>& fanStarts, const std::vector<uint32_t>& fans,
+                 double angle)
+    : mesh_(mesh),
+      adjacency_(adjacency),
+      fanStarts_(fanStarts),
+      fans_(fans),
+      cosine_(std::cos(angle)) {}
 
 Vec3 Creases::normal(uint32_t face) const {
   const uint32_t* f = mesh_.faces.data() + 3 * size_t(face);

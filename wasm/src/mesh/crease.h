@@ -34,9 +34,9 @@ class Creases {
 
 /// A corner of the loop around a part of a hole, and the edge from it to the next one.
 struct PartCorner {
-  uint32_t edge = kNone;   // the rim edge that begins there; kNone where a crease goes on
-  uint32_t vertex = kNone; // of the input; kNone: `added`
-  uint32_t added = kNone;  // in the list of points on creases
+  uint32_t edge = kNone;    // the rim edge that begins there; kNone where a crease goes on
+  uint32_t vertex = kNone;  // of the input; kNone: `added`
+  uint32_t added = kNone;   // in the list of points on creases
 };
 
 struct HoleParts {

@@ -21,10 +21,14 @@ constexpr size_t kMostPairs = 10000;
 
 FillReason reasonOf(Status status) {
   switch (status) {
-    case Status::RepeatedVertex: return FillReason::RepeatedVertex;
-    case Status::LoopsIntersect: return FillReason::RimsIntersect;
-    case Status::TooLarge: return FillReason::TooLarge;
-    default: return FillReason::NoSurface;
+    case Status::RepeatedVertex:
+      return FillReason::RepeatedVertex;
+    case Status::LoopsIntersect:
+      return FillReason::RimsIntersect;
+    case Status::TooLarge:
+      return FillReason::TooLarge;
+    default:
+      return FillReason::NoSurface;
   }
 }
 
@@ -39,8 +43,8 @@ Vec3 normalOf(ArrayView<const double> positions, uint32_t a, uint32_t b, uint32_
 
 /// A corner of the loops around a patch, and the edge from it to the next one.
 struct Corner {
-  uint32_t vertex;       // of the filled mesh
-  uint32_t edge = kNone; // the rim edge that begins there, or kNone
+  uint32_t vertex;        // of the filled mesh
+  uint32_t edge = kNone;  // the rim edge that begins there, or kNone
 };
 
 struct HoleFiller::Hole {
@@ -51,12 +55,15 @@ struct HoleFiller::Hole {
   LocalSurface surface;            // fixed vertices as in `vertices`
 };
 
-HoleFiller::HoleFiller(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work)
+HoleFiller::HoleFiller(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims,
+                       Work& work)
     : mesh_(mesh), adjacency_(adjacency), rims_(rims), work_(work), charge_(work), tree_(work) {}
 
 bool HoleFiller::prepare() {
   const size_t n = mesh_.positions.size() / 3, m = mesh_.faces.size() / 3;
-  if (!reserve(fanStarts_, n + 1, charge_) || !reserve(fans_, 3 * m, charge_) || !reserve(local_, n, charge_)) return false;
+  if (!reserve(fanStarts_, n + 1, charge_) || !reserve(fans_, 3 * m, charge_) ||
+      !reserve(local_, n, charge_))
+    return false;
   fanStarts_.assign(n + 1, 0);
   const auto counts = [&](size_t f) { return adjacency_.corners[3 * f] != kNone; };
   for (size_t f = 0; f < m; ++f)
@@ -69,7 +76,8 @@ bool HoleFiller::prepare() {
     if (counts(f))
       for (int k = 0; k < 3; ++k) fans_[next[mesh_.faces[3 * f + k]]++] = uint32_t(f);
   local_.assign(n, kNone);
-  return work_.tick(uint32_t(std::min<size_t>(20 * (n + m), 1u << 30))) && tree_.build(mesh_, 0, uint32_t(m));
+  return work_.tick(uint32_t(std::min<size_t>(20 * (n + m), 1u << 30))) &&
+         tree_.build(mesh_, 0, uint32_t(m));
 }
 
 bool HoleFiller::isFaceOfMesh(uint32_t a, uint32_t b, uint32_t c) const {
@@ -103,8 +111,10 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
   // Wider spaces only where narrower ones hold nothing, or only a surface with vertices on the rim.
   std::vector<Space> spaces{options.space};
   if (options.space == Space::Auto) {
-    if (loops.loopCount() == 1 && loops.vertexCount() <= kMostForAll) spaces = {Space::All};
-    else spaces = {Space::Delaunay, Space::Near, Space::Auto};
+    if (loops.loopCount() == 1 && loops.vertexCount() <= kMostForAll)
+      spaces = {Space::All};
+    else
+      spaces = {Space::Delaunay, Space::Near, Space::Auto};
   }
   Span found;
   FillReason reason = FillReason::NoSurface;
@@ -132,7 +142,8 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
   const uint32_t second = loops.next(0);
   for (size_t t = 0; t < triangles.size(); t += 3) {
     bool isBackwards = false;
-    for (int k = 0; k < 3; ++k) isBackwards |= triangles[t + k] == second && triangles[t + (k + 1) % 3] == 0;
+    for (int k = 0; k < 3; ++k)
+      isBackwards |= triangles[t + k] == second && triangles[t + (k + 1) % 3] == 0;
     if (!isBackwards) continue;
     for (size_t i = 0; i < triangles.size(); i += 3) std::swap(triangles[i + 1], triangles[i + 2]);
     break;
@@ -156,7 +167,8 @@ void HoleFiller::takeRings(Hole& hole, std::vector<uint32_t>& faces) {
   for (uint32_t ring = 0; ring < kRings; ++ring) {
     const size_t ringEnd = vertices.size();
     for (size_t i = ringStart; i < ringEnd; ++i)
-      for (uint32_t k = fanStarts_[vertices[i]]; k < fanStarts_[vertices[i] + 1]; ++k) faces.push_back(fans_[k]);
+      for (uint32_t k = fanStarts_[vertices[i]]; k < fanStarts_[vertices[i] + 1]; ++k)
+        faces.push_back(fans_[k]);
     for (; seen < faces.size(); ++seen)
       for (int k = 0; k < 3; ++k) {
         const uint32_t v = mesh_.faces[3 * size_t(faces[seen]) + k];
@@ -182,7 +194,9 @@ void HoleFiller::takeSide(Hole& hole, std::vector<uint32_t>& faces) {
     for (size_t i = stepStart; i < stepEnd; ++i)
       for (uint32_t k = 0; k < 3; ++k) {
         const uint32_t h = 3 * faces[i] + k, twin = adjacency_.twins[h];
-        if (twin != kNone && !creases.isSharp(h) && !std::binary_search(known.begin(), known.end(), twin / 3)) next.push_back(twin / 3);
+        if (twin != kNone && !creases.isSharp(h) &&
+            !std::binary_search(known.begin(), known.end(), twin / 3))
+          next.push_back(twin / 3);
       }
     std::sort(next.begin(), next.end());
     next.erase(std::unique(next.begin(), next.end()), next.end());
@@ -202,7 +216,8 @@ void HoleFiller::takeSide(Hole& hole, std::vector<uint32_t>& faces) {
 
 Vec3 HoleFiller::point(uint32_t vertex) const {
   const size_t n = mesh_.positions.size() / 3;
-  return vertex < n ? pointAt(mesh_.positions, vertex) : pointAt(newPositions_, vertex - uint32_t(n));
+  return vertex < n ? pointAt(mesh_.positions, vertex)
+                    : pointAt(newPositions_, vertex - uint32_t(n));
 }
 
 /// Numbers the corners and the vertices around them, and lists the faces between.
@@ -214,8 +229,10 @@ void HoleFiller::surround(Hole& hole) {
   for (uint32_t i = uint32_t(vertices.size()); i-- > 0;)
     if (vertices[i] < n) local_[vertices[i]] = i;
   std::vector<uint32_t> faces;
-  if (hole.isPart) takeSide(hole, faces);
-  else takeRings(hole, faces);
+  if (hole.isPart)
+    takeSide(hole, faces);
+  else
+    takeRings(hole, faces);
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   LocalSurface& surface = hole.surface;
@@ -226,7 +243,8 @@ void HoleFiller::surround(Hole& hole) {
   for (const uint32_t f : faces) {
     const uint32_t* c = mesh_.faces.data() + 3 * size_t(f);
     const bool isTurned = adjacency_.turned[f] != 0;
-    for (const uint32_t v : {c[0], c[isTurned ? 2 : 1], c[isTurned ? 1 : 2]}) surface.triangles.push_back(local_[v]);
+    for (const uint32_t v : {c[0], c[isTurned ? 2 : 1], c[isTurned ? 1 : 2]})
+      surface.triangles.push_back(local_[v]);
   }
   surface.fixedVertices = uint32_t(vertices.size());
   surface.fixedTriangles = uint32_t(surface.triangles.size() / 3);
@@ -240,7 +258,8 @@ double HoleFiller::rimAngle(const Hole& hole, double* largest) const {
   // The corner after each.
   std::vector<uint32_t> next(hole.corners.size());
   for (size_t l = 0; l + 1 < hole.starts.size(); ++l)
-    for (uint32_t i = hole.starts[l]; i < hole.starts[l + 1]; ++i) next[i] = i + 1 < hole.starts[l + 1] ? i + 1 : hole.starts[l];
+    for (uint32_t i = hole.starts[l]; i < hole.starts[l + 1]; ++i)
+      next[i] = i + 1 < hole.starts[l + 1] ? i + 1 : hole.starts[l];
   double sum = 0;
   uint32_t count = 0;
   for (size_t t = 3 * size_t(s.fixedTriangles); t < s.triangles.size(); t += 3)
@@ -249,7 +268,8 @@ double HoleFiller::rimAngle(const Hole& hole, double* largest) const {
       if (a >= hole.corners.size() || next[a] != b || hole.corners[a].edge == kNone) continue;
       const Vec3 n = rims_.normals[hole.corners[a].edge];
       if (dot(n, n) == 0) continue;
-      const double angle = angleBetween(n, normalOf(s.positions, s.triangles[t], s.triangles[t + 1], s.triangles[t + 2]));
+      const double angle = angleBetween(
+          n, normalOf(s.positions, s.triangles[t], s.triangles[t + 1], s.triangles[t + 2]));
       if (largest) *largest = std::max(*largest, angle);
       sum += angle, ++count;
     }
@@ -261,7 +281,8 @@ bool HoleFiller::findPairs(const Hole& hole, size_t most, std::vector<FacePair>&
   pairs.clear();
   const LocalSurface& s = hole.surface;
   const MeshView patch{s.positions, s.triangles};
-  const uint32_t from = s.fixedTriangles, to = uint32_t(s.triangles.size() / 3), first = faceCount();
+  const uint32_t from = s.fixedTriangles, to = uint32_t(s.triangles.size() / 3),
+                 first = faceCount();
   std::vector<FacePair> own;
   if (!findIntersections(patch, from, to, mesh_, tree_, most, work_, pairs)) return false;
   if (!findSelfIntersections(patch, from, to, most, work_, own)) return false;
@@ -281,7 +302,8 @@ bool HoleFiller::findOwnPairs(uint32_t from, uint32_t to, std::vector<FacePair>&
     positions.insert(positions.end(), {p.x, p.y, p.z});
   }
   std::vector<FacePair> own;
-  if (!findSelfIntersections({positions, faces}, 0, to - from, kMostPairs, work_, own)) return false;
+  if (!findSelfIntersections({positions, faces}, 0, to - from, kMostPairs, work_, own))
+    return false;
   for (const FacePair p : own) pairs.push_back({p.first + from, p.second + from});
   return true;
 }
@@ -289,9 +311,11 @@ bool HoleFiller::findOwnPairs(uint32_t from, uint32_t to, std::vector<FacePair>&
 bool HoleFiller::append(const Hole& hole) {
   const LocalSurface& s = hole.surface;
   const uint32_t firstNew = vertexCount(), fixed = s.fixedVertices;
-  const size_t coordinates = s.positions.size() - 3 * size_t(fixed), corners = s.triangles.size() - 3 * size_t(s.fixedTriangles);
+  const size_t coordinates = s.positions.size() - 3 * size_t(fixed),
+               corners = s.triangles.size() - 3 * size_t(s.fixedTriangles);
   if (!charge_.add(8 * coordinates + 4 * corners)) return false;
-  newPositions_.insert(newPositions_.end(), s.positions.begin() + 3 * size_t(fixed), s.positions.end());
+  newPositions_.insert(newPositions_.end(), s.positions.begin() + 3 * size_t(fixed),
+                       s.positions.end());
   for (size_t i = 3 * size_t(s.fixedTriangles); i < s.triangles.size(); ++i) {
     const uint32_t v = s.triangles[i];
     newFaces_.push_back(v < fixed ? hole.vertices[v] : firstNew + v - fixed);
@@ -299,7 +323,8 @@ bool HoleFiller::append(const Hole& hole) {
   return true;
 }
 
-Status HoleFiller::fill(ArrayView<const uint32_t> rims, const FillOptions& options, FilledHole& result) {
+Status HoleFiller::fill(ArrayView<const uint32_t> rims, const FillOptions& options,
+                        FilledHole& result) {
   result = {};
   bool isDone = false;
   if (options.creases && rims.size() == 1) {
@@ -310,7 +335,8 @@ Status HoleFiller::fill(ArrayView<const uint32_t> rims, const FillOptions& optio
   Hole hole;
   hole.starts = {0};
   for (const uint32_t r : rims) {
-    for (uint32_t e = rims_.starts[r]; e < rims_.starts[r + 1]; ++e) hole.corners.push_back({rims_.vertices[e], e});
+    for (uint32_t e = rims_.starts[r]; e < rims_.starts[r + 1]; ++e)
+      hole.corners.push_back({rims_.vertices[e], e});
     hole.starts.push_back(uint32_t(hole.corners.size()));
   }
   result.firstFace = faceCount();
@@ -320,7 +346,8 @@ Status HoleFiller::fill(ArrayView<const uint32_t> rims, const FillOptions& optio
 }
 
 /// Fills the parts of a hole between creases that end at its rim. `isDone`: there are such, and all are filled well.
-Status HoleFiller::fillParts(uint32_t rim, const FillOptions& options, FilledHole& result, bool& isDone) {
+Status HoleFiller::fillParts(uint32_t rim, const FillOptions& options, FilledHole& result,
+                             bool& isDone) {
   const Creases creases(mesh_, adjacency_, fanStarts_, fans_, kCrease);
   const HoleParts parts = partHole(mesh_, rims_, rim, creases);
   if (parts.parts.empty()) return Status::Ok;
@@ -334,7 +361,8 @@ Status HoleFiller::fillParts(uint32_t rim, const FillOptions& options, FilledHol
   for (const auto& part : parts.parts) {
     Hole hole;
     hole.isPart = true;
-    for (const PartCorner& c : part) hole.corners.push_back({c.vertex != kNone ? c.vertex : firstPoint + c.added, c.edge});
+    for (const PartCorner& c : part)
+      hole.corners.push_back({c.vertex != kNone ? c.vertex : firstPoint + c.added, c.edge});
     hole.starts = {0, uint32_t(hole.corners.size())};
     FilledHole filled;
     status = fillPart(hole, options, filled);
@@ -342,14 +370,16 @@ Status HoleFiller::fillParts(uint32_t rim, const FillOptions& options, FilledHol
       isGood = false;
       break;
     }
-    before += filled.rimAngleBefore / double(parts.parts.size()), after += filled.rimAngleAfter / double(parts.parts.size());
+    before += filled.rimAngleBefore / double(parts.parts.size()),
+        after += filled.rimAngleAfter / double(parts.parts.size());
     cost += filled.cost, bound += filled.lowerBound, areOptimal &= filled.optimal;
     result.fairnessUsed = std::max(result.fairnessUsed, filled.fairnessUsed);
     result.movedLess = std::max(result.movedLess, filled.movedLess);
   }
   result.endFace = faceCount();
   // Parts may be clean each by itself and still meet.
-  if (isGood && !findOwnPairs(result.firstFace, result.endFace, result.intersections)) status = work_.status();
+  if (isGood && !findOwnPairs(result.firstFace, result.endFace, result.intersections))
+    status = work_.status();
   isDone = status == Status::Ok && isGood && result.intersections.empty();
   if (!isDone) {
     newPositions_.resize(positions), newFaces_.resize(faces);
@@ -375,14 +405,16 @@ Status HoleFiller::fillPart(Hole& hole, const FillOptions& options, FilledHole& 
   // What goes on everything around it as it was spanned, nothing should bend.
   const bool isExact = largest < kExact || isFlat(surface);
   if (!isExact) {
-    if (options.fairing == Fairing::Auto && !findFairOrder(surface, 0, work_, fairing.order)) return work_.status();
+    if (options.fairing == Fairing::Auto && !findFairOrder(surface, 0, work_, fairing.order))
+      return work_.status();
     if (options.fairing == Fairing::Bending) fairing.order = 2;
     if (options.fairing == Fairing::Curvature) fairing.order = 3;
     RefineOptions refining;
     refining.density = options.density;
     refining.maxNewVertices = options.maxNewVertices;
     Smoothed smoothed;
-    status = smoothPatchApart(surface, refining, fairing, mesh_, tree_, options.inFloats, work_, smoothed);
+    status = smoothPatchApart(surface, refining, fairing, mesh_, tree_, options.inFloats, work_,
+                              smoothed);
     if (status != Status::Ok) return status;
     result.fairnessUsed = smoothed.fairness.order;
     result.movedLess = 1 - smoothed.share;

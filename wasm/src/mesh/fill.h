@@ -26,7 +26,7 @@ struct FillOptions {
   double density = 1.4142135623730951;  // as in RefineOptions
   uint32_t maxNewVertices = 0xFFFFFFFFu;
   bool inFloats = false;  // whether coordinates of new vertices are rounded to single precision
-  bool creases = true;  // whether creases that end at the rim go on
+  bool creases = true;    // whether creases that end at the rim go on
 };
 
 enum class FillStatus : uint8_t { Filled, SelfIntersecting, Failed };
@@ -83,7 +83,9 @@ class HoleFiller {
   double rimAngle(const Hole& hole, double* largest) const;
   bool isFaceOfMesh(uint32_t a, uint32_t b, uint32_t c) const;
   uint32_t faceCount() const { return uint32_t((mesh_.faces.size() + newFaces_.size()) / 3); }
-  uint32_t vertexCount() const { return uint32_t((mesh_.positions.size() + newPositions_.size()) / 3); }
+  uint32_t vertexCount() const {
+    return uint32_t((mesh_.positions.size() + newPositions_.size()) / 3);
+  }
   Vec3 point(uint32_t vertex) const;
 
   MeshView mesh_;
