@@ -282,4 +282,28 @@
   X(double, endFace, "the one after its last")                             \
   X(double, pairs, "how many pairs of faces intersect")
 
+/* sf_smooth_surface */
+
+#define SF_SURFACE_KIND_CHOICES(X) \
+  X(SoapFilm, 0, "soap-film")      \
+  X(ThinPlate, 1, "thin-plate")    \
+  X(Curvature, 2, "curvature")
+
+#define SF_SMOOTH_SETTINGS(X)                                                         \
+  X(double, kind, "a choice of SF_SURFACE_KIND_CHOICES")                              \
+  X(double, density, "how much denser than its boundary the surface is; 0: as it is") \
+  X(double, maxNewVertices, "most vertices that refining adds")                       \
+  X(double, maxBytes, "memory limit")
+
+#define SF_SMOOTH_ARRAYS(X)                                                        \
+  X(double, positions, "[3n] the boundary's vertices as given, then those inside") \
+  X(uint32_t, triangles, "[3m] wound as given")                                    \
+  X(uint32_t, boundary, "[b] the numbers that the first b vertices had")           \
+  X(uint32_t, collapsed, "vertices where no film exists")                          \
+  X(SfSmoothNumbers, numbers, "[1]")
+
+#define SF_SMOOTH_NUMBERS_RECORD(X) \
+  X(double, area, "of the surface") \
+  X(double, isMinimal, "1 if a further step of a film would move nothing, else 0")
+
 #endif
