@@ -79,7 +79,8 @@ function perHoleOf(value: unknown): Readonly<Record<number, HoleFillOptions>> {
   );
 }
 
-function sizeOf(name: string, value: unknown, most = Infinity): number {
+/** An option that is a number and not negative. */
+export function sizeOf(name: string, value: unknown, most = Infinity): number {
   if (typeof value === 'number' && value >= 0 && value <= most) return value;
   throw mustBe('bad-option', name, most < Infinity ? `a number from 0 to ${most}` : 'a number and not negative', value);
 }

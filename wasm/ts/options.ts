@@ -9,6 +9,7 @@ import type {
   Part,
   PolygonOptions,
   PolygonsOptions,
+  SmoothOptions,
   SpanOptions,
   Weights,
 } from './types.js';
@@ -57,6 +58,8 @@ export const kHoleFillOptions: Names<HoleFillOptions> = {
 };
 
 export const kHoleOptions: Names<HoleOptions> = kLimits;
+
+export const kSmoothOptions: Names<SmoothOptions> = { ...kLimits, kind: true, density: true, maxNewVertices: true };
 
 export const kFillOptions: Names<FillOptions> = {
   ...kLimits,

@@ -531,10 +531,37 @@ export interface FillResult {
   readonly defects: readonly MeshDefect[];
 }
 
+export interface SmoothOptions extends HoleOptions {
+  /**
+   * `'soap-film'` (default): the surface of least area on its boundary, as near as its vertices allow; `'thin-plate'`:
+   * it bends least; `'curvature'`: its curvature varies least.
+   */
+  readonly kind?: 'soap-film' | 'thin-plate' | 'curvature';
+  /** How much denser than its boundary the surface is (Liepa's factor). Default √2; 0: it keeps its vertices. */
+  readonly density?: number;
+  /** Most new vertices. */
+  readonly maxNewVertices?: number;
+}
+
+export interface SmoothSurface {
+  /** `[3n]`: the vertices of the boundary, exactly as given, then those inside. */
+  readonly positions: Float64Array;
+  /** `[3m]`, wound as given. */
+  readonly triangles: Uint32Array;
+  /** `[b]` the numbers that the first b vertices had in the input. */
+  readonly boundary: Uint32Array;
+  /** Vertices where the film has shrunk to a thread: there is none, as between rings that are too far apart. */
+  readonly collapsed: Uint32Array;
+  readonly area: number;
+  /** For soap films: whether a further step would move nothing. */
+  readonly isMinimal: boolean;
+}
+
 /**
  * A part of the core that can be loaded by itself. `'loops'` is `loops.wasm`, for `spanLoops`. `'polygons'`
  * is `polygons.wasm`, for `triangulatePolygon`, `triangulatePolygons`, `triangulateGeoJSON` and
- * `PolygonSession`. `'meshes'` is `meshes.wasm`, for `findHoles` and `fillHoles`.
+ * `PolygonSession`. `'meshes'` is `meshes.wasm`, for `findHoles`, `fillHoles` and
+ * `smoothSurface`.
  */
 export type Part = 'loops' | 'polygons' | 'meshes';
 

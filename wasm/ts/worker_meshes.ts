@@ -3,12 +3,14 @@ import { optionsOf } from './check.js';
 import type { FilledHoles, FlatMesh, FoundHoles } from './compute_holes.js';
 import { fillOptionsOf, flattenMesh } from './hole_input.js';
 import { filledOf, holeListener, planOf, reportOf } from './hole_results.js';
-import { kFillOptions, kHoleOptions, limitsOf, signalOf } from './options.js';
+import type { SmoothArrays } from './border.js';
+import { kFillOptions, kHoleOptions, kSmoothOptions, limitsOf, signalOf } from './options.js';
 import type { Pool } from './pool.js';
-import type { FillOptions, HoleOptions } from './types.js';
+import { smoothOf, smoothWorkOf } from './smooth.js';
+import type { FillOptions, HoleOptions, SmoothOptions } from './types.js';
 import type { CallOptions, Film } from './worker.js';
 
-type MeshCalls = 'findHoles' | 'fillHoles';
+type MeshCalls = 'findHoles' | 'fillHoles' | 'smoothSurface';
 
 /** Calls that check and copy here, have the pool compute, and make the results here. */
 export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
@@ -32,6 +34,12 @@ export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
       const watch = { signal, onProgress: holeListener(plan, given.onProgress) };
       const filled = (await pool.call('fillHoles', [found.mesh, patches], watch)) as FilledHoles;
       return filledOf(filled.mesh, plan, filled.arrays, given);
+    },
+    async smoothSurface(surface, options = {}) {
+      const flat = flattenMesh(surface, true);
+      const { signal, ...given } = optionsOf<SmoothOptions & CallOptions>(options, { ...kSmoothOptions, signal: true });
+      const watch = { signal: signalOf(signal) };
+      return smoothOf((await pool.call('smoothSurface', [flat, smoothWorkOf(given)], watch)) as SmoothArrays);
     },
   };
 }

@@ -39,12 +39,13 @@ SfResult* pack(Found&& found, sf::Grouping&& grouping) {
   }
   std::vector<SfGroupFacts> groups;
   for (uint32_t g = 0; g < grouping.count(); ++g)
-    groups.push_back({double(grouping.kinds[g]), grouping.scores[g], double(grouping.isOpenRim[g])});
+    groups.push_back(
+        {double(grouping.kinds[g]), grouping.scores[g], double(grouping.isOpenRim[g])});
   std::vector<SfDefectCounts> defects;
   std::vector<uint32_t> places;
   for (const sf::Defect& defect : found.adjacency.defects) {
-    defects.push_back({uint32_t(defect.kind), uint32_t(defect.faces.size()), uint32_t(defect.edges.size()),
-                       uint32_t(defect.vertices.size())});
+    defects.push_back({uint32_t(defect.kind), uint32_t(defect.faces.size()),
+                       uint32_t(defect.edges.size()), uint32_t(defect.vertices.size())});
     for (const auto* list : {&defect.faces, &defect.edges, &defect.vertices})
       places.insert(places.end(), list->begin(), list->end());
   }
@@ -62,9 +63,9 @@ SfResult* pack(Found&& found, sf::Grouping&& grouping) {
 
 bool isValid(const SfPatchSettings& s) {
   const int kGiven = int(sf::Space::Given);
-  return !(s.areaWeight < 0) && s.perimeterWeight >= 0 && s.dihedralWeight >= 0 && sf::isChoice(s.space, kGiven) &&
-         sf::isChoice(s.fairing, SF_COUNT(SF_FAIRING_CHOICES)) && s.density >= 0 && s.density < 1e6 &&
-         s.maxNewVertices >= 0;
+  return !(s.areaWeight < 0) && s.perimeterWeight >= 0 && s.dihedralWeight >= 0 &&
+         sf::isChoice(s.space, kGiven) && sf::isChoice(s.fairing, SF_COUNT(SF_FAIRING_CHOICES)) &&
+         s.density >= 0 && s.density < 1e6 && s.maxNewVertices >= 0;
 }
 
 sf::FillOptions optionsOf(const SfPatchSettings& s) {
@@ -112,8 +113,9 @@ SfFilledFacts factsOf(const sf::FilledHole& hole) {
 
 }  // namespace
 
-extern "C" SfStatus sf_find_holes(const double* positions, uint32_t vertexCount, const uint32_t* faces,
-                                  uint32_t faceCount, double maxBytes, SfPlace* where, SfResult** result) {
+extern "C" SfStatus sf_find_holes(const double* positions, uint32_t vertexCount,
+                                  const uint32_t* faces, uint32_t faceCount, double maxBytes,
+                                  SfPlace* where, SfResult** result) {
   *result = nullptr;
   if (!(maxBytes >= 0)) return sf::endWith({sf::Status::BadOption}, where);
   sf::Work work = sf::hostWork(maxBytes);
@@ -121,16 +123,18 @@ extern "C" SfStatus sf_find_holes(const double* positions, uint32_t vertexCount,
   Found found;
   sf::Outcome outcome = find(positions, vertexCount, faces, faceCount, work, charge, found);
   sf::Grouping grouping;
-  if (outcome.ok() && !sf::groupRims(found.mesh, found.adjacency, found.rims, work, charge, grouping))
+  if (outcome.ok() &&
+      !sf::groupRims(found.mesh, found.adjacency, found.rims, work, charge, grouping))
     outcome = {work.status()};
   if (outcome.ok()) *result = pack(std::move(found), std::move(grouping));
   return sf::endWith(outcome, where);
 }
 
-extern "C" SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount, const uint32_t* faces,
-                                  uint32_t faceCount, const uint32_t* groupStarts, uint32_t groupCount,
-                                  const uint32_t* groupLoops, const SfPatchSettings* settings, double maxBytes,
-                                  SfPlace* where, SfResult** result) {
+extern "C" SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount,
+                                  const uint32_t* faces, uint32_t faceCount,
+                                  const uint32_t* groupStarts, uint32_t groupCount,
+                                  const uint32_t* groupLoops, const SfPatchSettings* settings,
+                                  double maxBytes, SfPlace* where, SfResult** result) {
   *result = nullptr;
   bool isAllowed = maxBytes >= 0;
   for (uint32_t g = 0; isAllowed && g < groupCount; ++g) isAllowed = isValid(settings[g]);
@@ -149,13 +153,18 @@ extern "C" SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount,
     work.beginStage(double(g) / groupCount, double(g + 1) / groupCount);
     sf::FilledHole hole;
     const uint32_t first = groupStarts[g];
-    outcome.status = filler.fill({groupLoops + first, size_t(groupStarts[g + 1] - first)}, optionsOf(settings[g]), hole);
+    outcome.status = filler.fill({groupLoops + first, size_t(groupStarts[g + 1] - first)},
+                                 optionsOf(settings[g]), hole);
     facts.push_back(factsOf(hole));
-    for (const sf::FacePair pair : hole.intersections) pairs.insert(pairs.end(), {pair.first, pair.second});
+    for (const sf::FacePair pair : hole.intersections)
+      pairs.insert(pairs.end(), {pair.first, pair.second});
   }
   if (outcome.ok()) {
     *result = new SfResult(SfFillArrayCount);
-    const auto copy = [](auto view) { return std::vector<std::remove_const_t<std::remove_pointer_t<decltype(view.data())>>>(view.begin(), view.end()); };
+    const auto copy = [](auto view) {
+      return std::vector<std::remove_const_t<std::remove_pointer_t<decltype(view.data())>>>(
+          view.begin(), view.end());
+    };
     (*result)->put<SfFill_positions>(copy(filler.newPositions()));
     (*result)->put<SfFill_faces>(copy(filler.newFaces()));
     (*result)->put<SfFill_holes>(std::move(facts));

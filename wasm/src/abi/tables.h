@@ -61,5 +61,8 @@ SF_HOLES_ARRAYS(SF_ARRAY)
 #define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfFill, type, name)
 SF_FILL_ARRAYS(SF_ARRAY)
 #undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfSmooth, type, name)
+SF_SMOOTH_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
 
 }  // namespace sf
