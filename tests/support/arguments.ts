@@ -8,6 +8,7 @@ import {
   type fillHoles,
   type findHoles,
   type PolygonSession,
+  type smoothSurface,
   type spanLoops,
   type triangulateGeoJSON,
   type triangulatePolygon,
@@ -161,6 +162,7 @@ export interface Functions {
   readonly triangulateGeoJSON: typeof triangulateGeoJSON | Film['triangulateGeoJSON'];
   readonly findHoles: typeof findHoles | Film['findHoles'];
   readonly fillHoles: typeof fillHoles | Film['fillHoles'];
+  readonly smoothSurface: typeof smoothSurface | Film['smoothSurface'];
 }
 
 type Call = (...args: never[]) => unknown;
@@ -216,6 +218,7 @@ export function functionSlots(functions: Functions, more: Readonly<Record<string
   const geojson = functions.triangulateGeoJSON as Call as typeof span;
   const find = functions.findHoles as Call as typeof span;
   const fill = functions.fillHoles as Call as typeof span;
+  const smooth = functions.smoothSurface as Call as typeof span;
   const meshSlots = (name: string, call: typeof span) =>
     slots(name, ['bad-mesh', 'not-finite'], [
       ['mesh', call],
@@ -319,6 +322,21 @@ export function functionSlots(functions: Functions, more: Readonly<Record<string
       maxLength: kLimit,
       output: ['missing'],
       onProgress: kCallback,
+      ...more,
+    }),
+    ...slots('smoothSurface', ['bad-mesh', 'not-finite'], [
+      ['surface', smooth],
+      ['surface.positions', (v) => smooth({ ...kTwoHoles, positions: v }), [], /`surface\.positions`|Face 0/],
+      ['surface.positions, alone', (v) => smooth({ positions: v, faces: new Uint32Array() }), floats, /`surface\.positions`/],
+      // A face with one vertex three times is no surface.
+      ['surface.faces', (v) => smooth({ ...kTwoHoles, faces: v }), [], /`surface\.faces`|Face 0/],
+      ['surface.triangles', (v) => smooth({ positions: kTwoHoles.positions, triangles: v }), [], /`surface\.(triangles|faces)`|Face 0/],
+    ]),
+    ...optionSlots('smoothSurface', (options) => smooth(kTwoHoles, options), {
+      ...kLimits,
+      kind: ['missing'],
+      density: ['missing', 'fraction'],
+      maxNewVertices: kLimit,
       ...more,
     }),
     ...slots('fillHoles, options', ['bad-option', 'bad-weights'], [

@@ -5,6 +5,7 @@ import {
   formatObj,
   load,
   PolygonSession,
+  smoothSurface,
   SoapfilmError,
   spanLoops,
   triangulateGeoJSON,
@@ -84,7 +85,7 @@ async function tryAll({ call, valid, names, codes }: Slot): Promise<void> {
   expect(fillHoles(kTwoHoles).closed).toBe(true);
 }
 
-const here: Functions = { spanLoops, triangulatePolygon, triangulatePolygons, triangulateGeoJSON, findHoles, fillHoles };
+const here: Functions = { spanLoops, triangulatePolygon, triangulatePolygons, triangulateGeoJSON, findHoles, fillHoles, smoothSurface };
 const there: Pick<Film, keyof Functions> = {
   spanLoops: (loops, options) => film.spanLoops(loops, options),
   triangulatePolygon: (polygon, options) => film.triangulatePolygon(polygon, options),
@@ -92,6 +93,7 @@ const there: Pick<Film, keyof Functions> = {
   triangulateGeoJSON: (geojson, options) => film.triangulateGeoJSON(geojson, options),
   findHoles: (mesh, options) => film.findHoles(mesh, options),
   fillHoles: (mesh, options) => film.fillHoles(mesh, options),
+  smoothSurface: (surface, options) => film.smoothSurface(surface, options),
 };
 
 const openHere = (polygon: unknown, options?: unknown): PolygonSession =>
@@ -177,6 +179,7 @@ const readers: [string, readonly string[], (options: object) => unknown][] = [
   ['findHoles', ['maxMemoryBytes', 'maxSeconds'], (options) => findHoles(kTwoHoles, options)],
   ['fillHoles', kFillNames, (options) => fillHoles(kTwoHoles, options)],
   ['film.fillHoles', [...kFillNames, 'signal'], (options) => film.fillHoles(kTwoHoles, options)],
+  ['smoothSurface', ['maxMemoryBytes', 'maxSeconds', 'kind', 'density', 'maxNewVertices'], (options) => smoothSurface(kTwoHoles, options)],
   ['load', ['parts', 'wasm', 'checks'], (options) => load(options)],
   ['createWorker', ['parts', 'wasm', 'checks', 'size'], (options) => createWorker(options)],
   ['formatObj', ['name', 'precision'], (options) => formatObj(kSurface, options)],

@@ -9,17 +9,18 @@ import type { FillOptions, HoleFillOptions } from './types.js';
 /**
  * The mesh as the core takes it, copied where it must be.
  * @param own whether arrays must be copies, not views of the caller's
+ * @param argument its name, for messages
  * @throws SoapfilmError `bad-mesh`
  */
-export function flattenMesh(mesh: unknown, own: boolean): FlatMesh {
+export function flattenMesh(mesh: unknown, own: boolean, argument = 'mesh'): FlatMesh {
   const names = { positions: true, faces: true, triangles: true } as const;
-  const { positions: points, faces, triangles } = fieldsOf<Record<keyof typeof names, unknown>>(mesh, names, 'mesh', 'bad-mesh');
+  const { positions: points, faces, triangles } = fieldsOf<Record<keyof typeof names, unknown>>(mesh, names, argument, 'bad-mesh');
   const isTriples = (length: number): boolean => length % 3 === 0;
-  const positions = guarded('bad-mesh', 'mesh.positions', () => viewOf(['Float32Array', 'Float64Array'], points));
+  const positions = guarded('bad-mesh', `${argument}.positions`, () => viewOf(['Float32Array', 'Float64Array'], points));
   if (!positions || !isTriples(positions.length)) {
-    throw mustBe('bad-mesh', 'mesh.positions', 'a Float64Array or Float32Array of three numbers for each vertex', points);
+    throw mustBe('bad-mesh', `${argument}.positions`, 'a Float64Array or Float32Array of three numbers for each vertex', points);
   }
-  const name = faces === undefined && triangles !== undefined ? 'mesh.triangles' : 'mesh.faces';
+  const name = faces === undefined && triangles !== undefined ? `${argument}.triangles` : `${argument}.faces`;
   const given = faces ?? triangles;
   const corners = guarded('bad-mesh', name, () => viewOf(['Uint32Array'], given));
   if (!corners || !isTriples(corners.length)) {

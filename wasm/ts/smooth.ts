@@ -16,7 +16,7 @@ import type { MeshInput, SmoothOptions, SmoothSurface } from './types.js';
  *   `bad-option`; `too-large`, `out-of-memory`, `time-limit`; `crashed`
  */
 export function smoothSurface(surface: MeshInput, options: SmoothOptions = {}): SmoothSurface {
-  const flat = flattenMesh(surface, false);
+  const flat = flattenMesh(surface, false, 'surface');
   return smoothOf(computeSmooth(flat, smoothWorkOf(optionsOf(options, kSmoothOptions))));
 }
 

@@ -1,9 +1,9 @@
 // The functions for meshes of `soapfilm/worker`.
+import type { SmoothArrays } from './border.js';
 import { optionsOf } from './check.js';
 import type { FilledHoles, FlatMesh, FoundHoles } from './compute_holes.js';
 import { fillOptionsOf, flattenMesh } from './hole_input.js';
 import { filledOf, holeListener, planOf, reportOf } from './hole_results.js';
-import type { SmoothArrays } from './border.js';
 import { kFillOptions, kHoleOptions, kSmoothOptions, limitsOf, signalOf } from './options.js';
 import type { Pool } from './pool.js';
 import { smoothOf, smoothWorkOf } from './smooth.js';
@@ -36,7 +36,7 @@ export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
       return filledOf(filled.mesh, plan, filled.arrays, given);
     },
     async smoothSurface(surface, options = {}) {
-      const flat = flattenMesh(surface, true);
+      const flat = flattenMesh(surface, true, 'surface');
       const { signal, ...given } = optionsOf<SmoothOptions & CallOptions>(options, { ...kSmoothOptions, signal: true });
       const watch = { signal: signalOf(signal) };
       return smoothOf((await pool.call('smoothSurface', [flat, smoothWorkOf(given)], watch)) as SmoothArrays);
