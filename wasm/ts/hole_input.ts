@@ -27,7 +27,7 @@ export function flattenMesh(mesh: unknown, own: boolean): FlatMesh {
   }
   const single = positions instanceof Float32Array;
   return {
-    positions: single || own ? Float64Array.from(positions) : (positions as Float64Array),
+    positions: single || own ? Float64Array.from(positions) : positions,
     faces: own ? corners.slice() : corners,
     single,
   };
@@ -38,7 +38,7 @@ export function fillOptionsOf(given: Given<FillOptions>): FillOptions {
   const { holes, groups, perHole, fillOpenRims, maxVertices, maxLength, output, onProgress } = given;
   const checked: { -readonly [K in keyof FillOptions]: unknown } = { ...limitsOf(given), ...patchOptionsOf(given) };
   if (holes !== undefined && holes !== 'all') checked.holes = indicesOf('holes', holes);
-  if (groups !== undefined) checked.groups = listOf('groups', groups).map((group, i) => indicesOf(`groups[${i}]`, group, 1));
+  if (groups !== undefined) checked.groups = listOf('groups', groups, (group, name) => indicesOf(name, group, 1));
   if (perHole !== undefined) checked.perHole = perHoleOf(perHole);
   checked.fillOpenRims = flagOf('fillOpenRims', fillOpenRims);
   for (const [name, value] of Object.entries({ maxVertices, maxLength })) {
@@ -52,7 +52,13 @@ export function fillOptionsOf(given: Given<FillOptions>): FillOptions {
 function patchOptionsOf(given: Given<HoleFillOptions>, path = ''): HoleFillOptions {
   const { weights, candidates, fairness, density, maxNewVertices } = given;
   const checked: { -readonly [K in keyof HoleFillOptions]: unknown } = {};
-  if (weights !== undefined) checked.weights = weightsOf(weights);
+  if (weights !== undefined) {
+    const given = weightsOf(weights);
+    if (!Object.values(given).some((weight) => weight > 0)) {
+      throw new SoapfilmError('bad-weights', `At least one of \`${path}weights\` must be positive`);
+    }
+    checked.weights = given;
+  }
   if (candidates !== undefined) checked.candidates = choiceOf(`${path}candidates`, ['auto', 'all', 'delaunay', 'near'], candidates);
   if (fairness !== undefined) checked.fairness = choiceOf(`${path}fairness`, ['auto', 0, 1, 2], fairness);
   if (density !== undefined) checked.density = sizeOf(`${path}density`, density, 100);
@@ -67,6 +73,7 @@ function perHoleOf(value: unknown): Readonly<Record<number, HoleFillOptions>> {
   return Object.fromEntries(
     Object.entries(fields).map(([key, options]) => {
       const name = `perHole[${key}]`;
+      if (String(Number(key) >>> 0) !== key) throw new SoapfilmError('bad-option', `\`${name}\` is not the number of a hole`);
       return [key, patchOptionsOf(optionsOf(options, kHoleFillOptions, name), `${name}.`)];
     }),
   );
@@ -77,17 +84,24 @@ function sizeOf(name: string, value: unknown, most = Infinity): number {
   throw mustBe('bad-option', name, most < Infinity ? `a number from 0 to ${most}` : 'a number and not negative', value);
 }
 
-function listOf(name: string, value: unknown): unknown[] {
-  const list = guarded('bad-option', name, () => (Array.isArray(value) ? Array.from(value as unknown[]) : undefined));
+/** An array, each item read once and at once: one may be sparse, and have billions. */
+function listOf<T>(name: string, value: unknown, read: (item: unknown, name: string) => T): T[] {
+  const list = guarded('bad-option', name, () => {
+    if (!Array.isArray(value)) return undefined;
+    const items: T[] = [];
+    for (let i = 0; i < value.length; i++) items.push(read(value[i], `${name}[${i}]`));
+    return items;
+  });
   if (list) return list;
   throw mustBe('bad-option', name, 'an array', value);
 }
 
 function indicesOf(name: string, value: unknown, least = 0): number[] {
-  const list = listOf(name, value);
-  const wrong = list.findIndex((each) => !isIndex(each));
-  if (wrong >= 0) throw mustBe('bad-option', `${name}[${wrong}]`, 'a whole number and not negative', list[wrong]);
+  const list = listOf(name, value, (item, place) => {
+    if (isIndex(item)) return item;
+    throw mustBe('bad-option', place, 'a whole number and not negative', item);
+  });
   if (list.length < least) throw mustBe('bad-option', name, 'an array with numbers of loops', value);
   if (new Set(list).size < list.length) throw new SoapfilmError('bad-option', `\`${name}\` has a number twice`);
-  return list as number[];
+  return list;
 }

@@ -1,7 +1,8 @@
 // findHoles, fillHoles: check their arguments, and compute.
 import { optionsOf } from './check.js';
-import { computeFill, computeReport } from './compute_holes.js';
+import { computeHoles, computePatches } from './compute_holes.js';
 import { fillOptionsOf, flattenMesh } from './hole_input.js';
+import { filledOf, holeListener, planOf, reportOf } from './hole_results.js';
 import { kFillOptions, kHoleOptions, limitsOf } from './options.js';
 import type { FillOptions, FillResult, HoleOptions, HoleReport, MeshInput } from './types.js';
 
@@ -14,7 +15,7 @@ import type { FillOptions, FillResult, HoleOptions, HoleReport, MeshInput } from
  *   `bad-option`; `too-large`, `out-of-memory`, `time-limit`; `crashed`
  */
 export function findHoles(mesh: MeshInput, options: HoleOptions = {}): HoleReport {
-  return computeReport(flattenMesh(mesh, false), limitsOf(optionsOf(options, kHoleOptions)));
+  return reportOf(computeHoles(flattenMesh(mesh, false), limitsOf(optionsOf(options, kHoleOptions))).arrays);
 }
 
 /**
@@ -25,5 +26,11 @@ export function findHoles(mesh: MeshInput, options: HoleOptions = {}): HoleRepor
  * @throws SoapfilmError those of `findHoles`; `bad-weights`; what `onProgress` throws
  */
 export function fillHoles(mesh: MeshInput, options: FillOptions = {}): FillResult {
-  return computeFill(flattenMesh(mesh, false), fillOptionsOf(optionsOf(options, kFillOptions)));
+  const flat = flattenMesh(mesh, false);
+  const given = fillOptionsOf(optionsOf(options, kFillOptions));
+  const { arrays, seconds } = computeHoles(flat, given);
+  const plan = planOf(reportOf(arrays), given);
+  const onProgress = holeListener(plan, given.onProgress);
+  const filled = computePatches(flat, { ...limitsOf(given), work: plan.work, spentSeconds: seconds, onProgress });
+  return filledOf(flat, plan, filled.arrays, given);
 }

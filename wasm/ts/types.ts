@@ -447,7 +447,7 @@ export interface HoleReport {
 }
 
 export interface HoleOptions {
-  /** Most memory to use. Default 2 GiB. */
+  /** Most memory to use. Default 3 GiB. */
   readonly maxMemoryBytes?: number;
   /** Ends the work with `time-limit` after so many seconds. */
   readonly maxSeconds?: number;

@@ -114,6 +114,35 @@ TEST_CASE("groupRims: islands go with the rim around them, which comes first") {
   CHECK(told(mesh) == "island 4");
 }
 
+TEST_CASE("groupRims: islands in the shade of others go with the hole that looks at them") {
+  // A large hole, a row of large islands, and small ones between them.
+  const TestMesh mesh = without(saddleMesh(80, 0.1), [](Vec3 p) {
+    if (std::fabs(p.x) > 0.8 || std::fabs(p.y) > 0.8) return false;
+    for (const double x : {-0.5, 0.0, 0.5}) {
+      if (std::fabs(p.x - x) < 0.2 && std::fabs(std::fabs(p.y) - 0.35) < 0.25) return false;
+      if (std::fabs(p.x - x) < 0.05 && std::fabs(p.y) < 0.05) return false;
+    }
+    return true;
+  });
+  CHECK(told(mesh) == "island 10, open 1");
+}
+
+TEST_CASE("groupRims: an island that touches the rim around it goes with it") {
+  const TestMesh mesh = without(saddleMesh(16, 0.1), [](Vec3 p) {
+    const bool isIsland = p.x > 0 && p.y > 0 && p.x < 0.25 && p.y < 0.25;
+    const bool isHole = std::fabs(p.x) < 0.5 && std::fabs(p.y) < 0.5;
+    return isHole && !isIsland && !(p.x < 0 && p.y < 0);
+  });
+  CHECK(told(mesh) == "island 2, open 1");
+}
+
+TEST_CASE("groupRims: two holes that touch in a vertex stay two") {
+  const TestMesh mesh = without(saddleMesh(16, 0.2), [](Vec3 p) {
+    return p.x * p.y > 0 && std::fabs(p.x) < 0.5 && std::fabs(p.y) < 0.5;
+  });
+  CHECK(told(mesh) == "alone 1, alone 1, open 1");
+}
+
 TEST_CASE("groupRims: an island in a hole of an island makes two groups") {
   TestMesh mesh = without(sphereMesh(5), isBetween({0, 0, 1}, 0.15, 0.3));
   mesh = without(mesh, isBetween({0, 0, 1}, 0.5, 0.8));

@@ -11,33 +11,6 @@ namespace {
 
 constexpr uint32_t kTickEvery = 4096;
 
-/// Items in buckets by a vertex, and in each bucket by number.
-struct Buckets {
-  std::vector<uint32_t> starts;  // [n+1]
-  std::vector<uint32_t> items;
-};
-
-/// Counting sort. `keyOf(item)` is the item's vertex, or kNone for none.
-template <class KeyOf>
-bool fillBuckets(uint32_t vertices, uint32_t count, KeyOf keyOf, Work& work, Charge& charge,
-                 Buckets& result) {
-  if (!charge.add((uint64_t(vertices) + 2 + count) * sizeof(uint32_t))) return false;
-  std::vector<uint32_t>& starts = result.starts;
-  starts.assign(size_t(vertices) + 2, 0);
-  for (uint32_t i = 0; i < count; ++i) {
-    if (i % kTickEvery == 0 && !work.tick(2 * kTickEvery)) return false;
-    if (const uint32_t v = keyOf(i); v != kNone) ++starts[size_t(v) + 2];
-  }
-  for (size_t v = 2; v < starts.size(); ++v) starts[v] += starts[v - 1];
-  result.items.resize(starts.back());
-  for (uint32_t i = 0; i < count; ++i) {
-    if (i % kTickEvery == 0 && !work.tick(4 * kTickEvery)) return false;
-    if (const uint32_t v = keyOf(i); v != kNone) result.items[starts[size_t(v) + 1]++] = i;
-  }
-  starts.pop_back();
-  return true;
-}
-
 class AdjacencyBuilder {
  public:
   AdjacencyBuilder(const MeshView& mesh, Work& work, Charge& charge, Adjacency& result)
@@ -60,16 +33,21 @@ class AdjacencyBuilder {
     a_.vertices = vertices_;
     isLeftOut_.assign(m, 0);
     isAtCut_.assign(vertices_, 0);
-    return leaveOut() && linkEdges() && windAlike() && turn() && splitVertices() && tell();
+    return linkEdges() && windAlike() && turn() && splitVertices() && tell();
   }
 
  private:
+  struct Side {
+    uint32_t vertex;  // the greater end of its edge, or the third vertex of its face
+    uint32_t half;
+  };
+
   Vec3 at(uint32_t v) const { return scaled_(v); }
   uint32_t from(uint32_t h) const { return faces_[h]; }
   uint32_t to(uint32_t h) const { return faces_[nextInTriangle(h)]; }
-  bool leaveOut();
   bool linkEdges();
-  bool pairAtEdge(ArrayView<const uint32_t> halves);
+  bool linkAtEdge(std::vector<Side>& run);
+  bool pairAtEdge(std::vector<Side>& run);
   bool windAlike();
   void turnTheLess(uint32_t first, uint32_t end);
   bool turn();
@@ -96,107 +74,95 @@ class AdjacencyBuilder {
       unused_{DefectKind::UnusedVertex, {}, {}, {}};
 };
 
-/// Marks faces that name a vertex twice, and those on the vertices of an earlier one.
-bool AdjacencyBuilder::leaveOut() {
+/// Links the two faces of each edge, and pairs of faces where there are more. Leaves out faces that
+/// name a vertex twice, and those on the vertices of an earlier one.
+bool AdjacencyBuilder::linkEdges() {
+  links_.assign(3 * size_t(faceCount_), kNone);
   Charge charge(work_);
-  const auto leastOf = [&](uint32_t f) {
-    const uint32_t* v = &faces_[3 * size_t(f)];
-    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) return kNone;
-    return std::min({v[0], v[1], v[2]});
-  };
-  Buckets byLeast;
-  if (!fillBuckets(vertices_, faceCount_, leastOf, work_, charge, byLeast)) return false;
+  if (!charge.add((vertices_ + uint64_t(2)) * sizeof(uint32_t) + links_.size() * sizeof(Side)))
+    return false;
+  // Half-edges by the lesser end of their edges.
+  std::vector<uint32_t> starts(size_t(vertices_) + 2, 0);
   for (uint32_t f = 0; f < faceCount_; ++f) {
+    if (f % kTickEvery == 0 && !work_.tick(5 * kTickEvery)) return false;
     const uint32_t* v = &faces_[3 * size_t(f)];
-    if (v[0] != v[1] && v[1] != v[2] && v[2] != v[0]) continue;
-    isLeftOut_[f] = 1;
-    if (!push(degenerate_.faces, f, charge_)) return false;
-  }
-  struct Key {
-    uint64_t others;  // the two greater vertices
-    uint32_t face;
-  };
-  std::vector<Key> keys;
-  for (uint32_t v = 0; v < vertices_; ++v) {
-    const uint32_t first = byLeast.starts[v], end = byLeast.starts[v + 1];
-    if (end - first < 2) continue;
-    if (!work_.tick(20 * (end - first)) || !reserve(keys, end - first, charge)) return false;
-    keys.clear();
-    for (uint32_t i = first; i < end; ++i) {
-      const uint32_t f = byLeast.items[i], *c = &faces_[3 * size_t(f)];
-      const uint32_t p = c[0] == v ? c[1] : c[0], q = c[2] == v ? c[1] : c[2];
-      keys.push_back({uint64_t(std::min(p, q)) << 32 | std::max(p, q), f});
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
+      isLeftOut_[f] = 1;
+      if (!push(degenerate_.faces, f, charge_)) return false;
+      continue;
     }
-    sf::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-      return a.others != b.others ? a.others < b.others : a.face < b.face;
+    for (uint32_t h = 3 * f; h < 3 * f + 3; ++h) ++starts[size_t(std::min(from(h), to(h))) + 2];
+  }
+  for (size_t v = 2; v < starts.size(); ++v) starts[v] += starts[v - 1];
+  std::vector<Side> sides(starts.back());
+  for (uint32_t h = 0; h < 3 * faceCount_; ++h) {
+    if (h % kTickEvery == 0 && !work_.tick(10 * kTickEvery)) return false;
+    if (isLeftOut_[h / 3]) continue;
+    const uint32_t least = std::min(from(h), to(h));
+    sides[starts[size_t(least) + 1]++] = {from(h) ^ to(h) ^ least, h};
+  }
+  std::vector<Side> run;
+  for (uint32_t v = 0; v < vertices_; ++v) {
+    const uint32_t first = starts[v], end = starts[v + 1];
+    if (first == end) continue;
+    if (!work_.tick(20 * (end - first))) return false;
+    sf::sort(sides.begin() + first, sides.begin() + end, [](const Side& a, const Side& b) {
+      return a.vertex != b.vertex ? a.vertex < b.vertex : a.half < b.half;
     });
-    for (size_t i = 1; i < keys.size(); ++i) {
-      if (keys[i].others != keys[i - 1].others) continue;
-      isLeftOut_[keys[i].face] = 1;
-      if (!push(duplicates_.faces, keys[i].face, charge_)) return false;
+    for (uint32_t i = first, j; i < end; i = j) {
+      for (j = i + 1; j < end && sides[j].vertex == sides[i].vertex;) ++j;
+      if (j - i == 1) continue;
+      if (!reserve(run, j - i, charge)) return false;
+      run.assign(sides.begin() + i, sides.begin() + j);
+      if (!linkAtEdge(run)) return false;
     }
   }
   sf::sort(duplicates_.faces.begin(), duplicates_.faces.end());
   return true;
 }
 
-/// Links the two faces of each edge, and pairs of faces where there are more.
-bool AdjacencyBuilder::linkEdges() {
-  links_.assign(3 * size_t(faceCount_), kNone);
-  Charge charge(work_);
-  const auto lesserEnd = [&](uint32_t h) {
-    return isLeftOut_[h / 3] ? kNone : std::min(from(h), to(h));
-  };
-  Buckets byLesser;
-  if (!fillBuckets(vertices_, 3 * faceCount_, lesserEnd, work_, charge, byLesser)) return false;
-  struct Key {
-    uint32_t other, half;
-  };
-  std::vector<Key> keys;
-  std::vector<uint32_t> halves;
-  for (uint32_t v = 0; v < vertices_; ++v) {
-    const uint32_t first = byLesser.starts[v], end = byLesser.starts[v + 1];
-    if (first == end) continue;
-    if (!work_.tick(20 * (end - first)) || !reserve(keys, end - first, charge)) return false;
-    keys.clear();
-    for (uint32_t i = first; i < end; ++i) {
-      const uint32_t h = byLesser.items[i];
-      keys.push_back({from(h) ^ to(h) ^ v, h});
-    }
-    sf::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-      return a.other != b.other ? a.other < b.other : a.half < b.half;
+/// Faces with the same third vertex at one edge are the same; they meet at their other edges, too.
+bool AdjacencyBuilder::linkAtEdge(std::vector<Side>& run) {
+  for (Side& s : run) s.vertex = faces_[prevInTriangle(s.half)];
+  if (run.size() > 2 || run[0].vertex == run[1].vertex) {
+    sf::sort(run.begin(), run.end(), [](const Side& a, const Side& b) {
+      return a.vertex != b.vertex ? a.vertex < b.vertex : a.half < b.half;
     });
-    for (size_t i = 0, j; i < keys.size(); i = j) {
-      for (j = i + 1; j < keys.size() && keys[j].other == keys[i].other;) ++j;
-      if (j - i == 2)
-        links_[keys[i].half] = keys[i + 1].half, links_[keys[i + 1].half] = keys[i].half;
-      if (j - i <= 2) continue;
-      if (!reserve(halves, j - i, charge)) return false;
-      halves.clear();
-      for (size_t k = i; k < j; ++k) halves.push_back(keys[k].half);
-      if (!pairAtEdge(halves)) return false;
+    size_t kept = 1;
+    for (size_t i = 1; i < run.size(); ++i) {
+      const uint32_t f = run[i].half / 3;
+      if (run[i].vertex != run[kept - 1].vertex) {
+        run[kept++] = run[i];
+      } else if (!isLeftOut_[f]) {
+        isLeftOut_[f] = 1;
+        if (!push(duplicates_.faces, f, charge_)) return false;
+      }
     }
+    run.resize(kept);
   }
+  if (run.size() > 2) return pairAtEdge(run);
+  if (run.size() == 2) links_[run[0].half] = run[1].half, links_[run[1].half] = run[0].half;
   return true;
 }
 
-bool AdjacencyBuilder::pairAtEdge(ArrayView<const uint32_t> halves) {
-  const uint32_t low = std::min(from(halves[0]), to(halves[0]));
-  const uint32_t high = std::max(from(halves[0]), to(halves[0]));
+bool AdjacencyBuilder::pairAtEdge(std::vector<Side>& run) {
+  sf::sort(run.begin(), run.end(), [](const Side& a, const Side& b) { return a.half < b.half; });
+  const uint32_t low = std::min(from(run[0].half), to(run[0].half));
+  const uint32_t high = std::max(from(run[0].half), to(run[0].half));
   isAtCut_[low] = isAtCut_[high] = 1;
   if (!push(nonManifoldEdges_.edges, low, charge_) || !push(nonManifoldEdges_.edges, high, charge_))
     return false;
   EdgeFan fan(at(low), at(high));
-  if (halves.size() <= EdgeFan::kMost) {
-    for (const uint32_t h : halves) fan.add(at(faces_[prevInTriangle(h)]), from(h) == low);
+  if (run.size() <= EdgeFan::kMost) {
+    for (const Side& s : run) fan.add(at(s.vertex), from(s.half) == low);
     fan.pair();
   }
-  for (size_t i = 0; i < halves.size(); ++i) {
-    const uint32_t other = halves.size() <= EdgeFan::kMost ? fan.partner(uint32_t(i)) : kNone;
+  for (size_t i = 0; i < run.size(); ++i) {
+    const uint32_t other = run.size() <= EdgeFan::kMost ? fan.partner(uint32_t(i)) : kNone;
     if (other != kNone) {
-      links_[halves[i]] = halves[other];
-    } else if (!push(a_.cut, halves[i], charge_) ||
-               !push(nonManifoldEdges_.faces, halves[i] / 3, charge_)) {
+      links_[run[i].half] = run[other].half;
+    } else if (!push(a_.cut, run[i].half, charge_) ||
+               !push(nonManifoldEdges_.faces, run[i].half / 3, charge_)) {
       return false;
     }
   }

@@ -13,8 +13,6 @@ namespace {
 constexpr uint32_t kRings = 5;
 /// Rims up to this long are spanned among all triangles: beyond that Delaunay triangles do.
 constexpr uint32_t kMostForAll = 300;
-/// From this roughness of the surroundings on curvature goes on less well than direction does.
-constexpr double kRough = 0.35;
 /// How often the way of fairing is halved before all of it is given up.
 constexpr int kHalvings = 4;
 /// More pairs of intersecting faces are not listed.

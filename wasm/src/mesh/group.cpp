@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "base/sort.h"
@@ -31,16 +30,21 @@ class Grouper {
         temporary_(work),
         g_(result) {}
 
-  bool joinByVotes();
+  /// Memory of `doubts` is charged to `charge`.
+  bool joinByVotes(Charge& charge);
   bool group();
 
  private:
   bool reserveParents() {
-    return temporary_.add(rims_.count() * (4 * sizeof(uint32_t) + 2 * sizeof(double)));
+    return temporary_.add(rims_.count() * (4 * sizeof(uint32_t) + 3 * sizeof(double)));
   }
   void separateAll() {
     parents_.resize(rims_.count());
     std::iota(parents_.begin(), parents_.end(), 0u);
+  }
+  void findTurnings() {
+    turnings_.clear();
+    for (uint32_t r = 0; r < rims_.count(); ++r) turnings_.push_back(turningOf(r));
   }
   uint32_t rootOf(uint32_t r) {
     while (parents_[r] != r) r = parents_[r] = parents_[parents_[r]];
@@ -49,7 +53,9 @@ class Grouper {
   /// The lesser root stays: groups come by their least rims.
   void unite(uint32_t p, uint32_t q) { parents_[std::max(p, q)] = std::min(p, q); }
   bool joinByGroups();
-  bool findDoubts();
+  bool joinIslands();
+  bool isIsland(uint32_t rim) const { return turnings_[rim] < -kPi; }
+  bool findDoubts(Charge& charge);
   void join();
   void finish(uint32_t first, uint32_t root);
   double turningOf(uint32_t rim) const;
@@ -63,19 +69,21 @@ class Grouper {
   Charge temporary_;
   Grouping& g_;
   std::vector<uint32_t> parents_;
-  std::vector<double> scores_;  // of groups, at their roots
+  std::vector<double> turnings_;  // [k]
+  std::vector<double> scores_;    // of groups, at their roots
 };
 
-bool Grouper::joinByVotes() {
+bool Grouper::joinByVotes(Charge& charge) {
   if (!reserveParents()) return false;
   separateAll();
+  findTurnings();
   for (RimVote& v : g_.votes) {
     v.isJoined = v.vote >= kJoinsFrom;
     if (!v.isJoined) continue;
     const uint32_t p = rootOf(v.first), q = rootOf(v.second);
     if (p != q) unite(p, q);
   }
-  return joinByGroups() && findDoubts();
+  return joinByGroups() && joinIslands() && findDoubts(charge);
 }
 
 /// An island in the midst of others looks at all of them, and at the outer rim, a little each.
@@ -131,7 +139,63 @@ bool Grouper::joinByGroups() {
   return true;
 }
 
-bool Grouper::findDoubts() {
+/// Joins what can be nothing but islands to the hole around them, if that looks at them: it may be so
+/// large that this is a small share of it, while they see others behind it.
+bool Grouper::joinIslands() {
+  struct Look {
+    uint32_t island, hole;  // roots
+    uint32_t vote;
+    double length;
+  };
+  std::vector<Look> looks;
+  std::vector<double> lengths(rims_.count());
+  std::vector<uint8_t> isAllIslands(rims_.count());
+  bool goesOn = true;
+  for (int round = 0; round < kMostRounds && goesOn; ++round) {
+    goesOn = false;
+    looks.clear();
+    std::fill(lengths.begin(), lengths.end(), 0.0);
+    std::fill(isAllIslands.begin(), isAllIslands.end(), uint8_t(1));
+    if (!work_.tick(uint32_t(std::min<size_t>(g_.votes.size() * 50, 1u << 30)))) return false;
+    for (uint32_t r = 0; r < rims_.count(); ++r) {
+      lengths[rootOf(r)] += rims_.rims[r].length;
+      if (!isIsland(r)) isAllIslands[rootOf(r)] = 0;
+    }
+    for (uint32_t i = 0; i < g_.votes.size(); ++i) {
+      const RimVote& v = g_.votes[i];
+      const uint32_t p = rootOf(v.first), q = rootOf(v.second);
+      if (p == q || isAllIslands[p] == isAllIslands[q]) continue;
+      const double length = v.shareOfFirst * rims_.rims[v.first].length +
+                            v.shareOfSecond * rims_.rims[v.second].length;
+      const Look look{isAllIslands[p] ? p : q, isAllIslands[p] ? q : p, i, length};
+      if (!push(looks, look, temporary_)) return false;
+    }
+    sf::sort(looks.begin(), looks.end(), [](const Look& a, const Look& b) {
+      if (a.island != b.island) return a.island < b.island;
+      return a.hole != b.hole ? a.hole < b.hole : a.vote < b.vote;
+    });
+    for (size_t i = 0, j; i < looks.size(); i = j) {
+      const uint32_t island = looks[i].island;
+      double sum = 0;
+      uint32_t strongest = looks[i].vote;
+      for (j = i; j < looks.size() && looks[j].island == island && looks[j].hole == looks[i].hole;
+           ++j) {
+        sum += looks[j].length;
+        if (g_.votes[looks[j].vote].vote > g_.votes[strongest].vote) strongest = looks[j].vote;
+      }
+      if (!(sum >= kJoinsIslandFrom * lengths[island]) || !(sum > 0)) continue;
+      RimVote& v = g_.votes[strongest];
+      const uint32_t p = rootOf(v.first), q = rootOf(v.second);
+      if (p == q) continue;
+      v.isJoined = true;
+      v.vote = std::min(1.0, std::max(v.vote, sum / lengths[island]));
+      unite(p, q), goesOn = true;
+    }
+  }
+  return true;
+}
+
+bool Grouper::findDoubts(Charge& charge) {
   separateAll();
   for (const RimVote& v : g_.votes)
     if (v.vote > kDoubtTo) {
@@ -141,7 +205,7 @@ bool Grouper::findDoubts() {
   for (uint32_t i = 0; i < g_.votes.size(); ++i) {
     const RimVote& v = g_.votes[i];
     if (v.vote < kDoubtFrom || v.vote > kDoubtTo || rootOf(v.first) == rootOf(v.second)) continue;
-    if (!push(g_.doubts, i, temporary_)) return false;
+    if (!push(g_.doubts, i, charge)) return false;
   }
   return true;
 }
@@ -169,6 +233,7 @@ bool Grouper::group() {
       !work_.tick(uint32_t(std::min<size_t>(rims_.vertices.size() * 100, 1u << 30))))
     return false;
   separateAll();
+  findTurnings();
   join();
   struct Member {
     uint32_t root, rim;
@@ -210,14 +275,17 @@ double Grouper::turningOf(uint32_t rim) const {
 /// Puts the outer rim first, and says what the group is.
 void Grouper::finish(uint32_t first, uint32_t root) {
   const auto begin = g_.rims.begin() + first;
-  double leastTurning = std::numeric_limits<double>::infinity(), whole = 0, open = 0;
-  bool isSeam = true, crossesSeam = false;
+  double whole = 0, open = 0;
+  bool hasIsland = false, isSeam = true, crossesSeam = false;
   size_t outer = first;
   for (size_t i = first; i < g_.rims.size(); ++i) {
     const uint32_t r = g_.rims[i];
     const Rim& rim = rims_.rims[r];
-    leastTurning = std::min(leastTurning, turningOf(r));
-    if (rim.length > rims_.rims[g_.rims[outer]].length) outer = i;
+    hasIsland |= isIsland(r);
+    // The longest that is no island: a ragged island can be longer than the rim around it.
+    const uint32_t best = g_.rims[outer];
+    const bool isLonger = rim.length > rims_.rims[best].length;
+    if (isIsland(r) == isIsland(best) ? isLonger : isIsland(best)) outer = i;
     whole += rim.length, open += rim.length * g_.openness[r];
     isSeam &= rim.cutEdges > 0;
     crossesSeam |= rim.crossesSeam;
@@ -225,9 +293,7 @@ void Grouper::finish(uint32_t first, uint32_t root) {
   std::rotate(begin, g_.rims.begin() + ptrdiff_t(outer), g_.rims.begin() + ptrdiff_t(outer) + 1);
   const bool isAlone = g_.rims.size() - first == 1;
   const bool isOpen = open > kOpenFrom * whole || crossesSeam;
-  g_.kinds.push_back(isAlone               ? GroupKind::Alone
-                     : leastTurning < -kPi ? GroupKind::Island
-                                           : GroupKind::Band);
+  g_.kinds.push_back(isAlone ? GroupKind::Alone : hasIsland ? GroupKind::Island : GroupKind::Band);
   g_.scores.push_back(scores_[root]);
   g_.isOpenRim.push_back(isOpen);
   g_.isSeam.push_back(isSeam && isOpen);
@@ -256,7 +322,7 @@ bool groupRims(const MeshView& mesh, const Adjacency& adjacency, const Rims& rim
   if (!castVotes(mesh, rims, work, charge, result)) return false;
   // starts, rims, kinds, scores, flags: no more groups than rims, now and later.
   if (!charge.add(rims.count() * (2 * sizeof(uint32_t) + sizeof(double) + 3))) return false;
-  return Grouper(mesh, adjacency, rims, work, result).joinByVotes() &&
+  return Grouper(mesh, adjacency, rims, work, result).joinByVotes(charge) &&
          regroupRims(mesh, adjacency, rims, work, result);
 }
 

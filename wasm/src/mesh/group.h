@@ -19,8 +19,9 @@ enum class GroupKind : uint8_t { Alone, Island, Band };
 struct RimVote {
   uint32_t first, second;              // first < second
   double shareOfFirst, shareOfSecond;  // of each rim, by length, that looks at the other
-  double
-      vote;  // the larger share; or that of one rim at all rims of the other's group, if that joins them
+  /// The larger share; or, if that joins the rims, the share of one rim at all rims of the other's
+  /// group, or how much looks at an island for its length.
+  double vote;
   bool isJoined;
 };
 
@@ -43,9 +44,10 @@ struct Grouping {
   uint32_t count() const { return uint32_t(kinds.size()); }
 };
 
-constexpr double kJoinsFrom = 0.4;       // least vote that joins two rims
-constexpr double kJoinsGroupFrom = 0.5;  // least share at a group that joins a rim to it
-constexpr double kOpenFrom = 0.5;        // an open rim has more openness
+constexpr double kJoinsFrom = 0.4;        // least vote that joins two rims
+constexpr double kJoinsGroupFrom = 0.5;   // least share at a group that joins a rim to it
+constexpr double kJoinsIslandFrom = 0.4;  // least length that looks at an island, over its own
+constexpr double kOpenFrom = 0.5;         // an open rim has more openness
 constexpr double kDoubtFrom = 0.3, kDoubtTo = 0.65;  // votes that the cost should confirm
 
 /// Groups rims by their votes.

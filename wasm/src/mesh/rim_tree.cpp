@@ -10,6 +10,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr uint32_t kLeaf = 8;
+/// Nodes that the search for one partner looks at. Rims of holes need some hundred; more
+/// are needed among thousands of things that cross each other.
+constexpr uint32_t kMostVisits = 2000;
 
 double angleOf(double cosine) {
   const double square = 1 - cosine * cosine;
@@ -149,7 +152,7 @@ RimPartner RimTree::best(uint32_t edge, double reach) {
     if (least < best.cost) rimStack_.push_back({number, least});
   };
   pushRims(0);
-  while (!rimStack_.empty()) {
+  while (!rimStack_.empty() && visits_ < kMostVisits) {
     const Pending top = rimStack_.back();
     rimStack_.pop_back();
     if (!(top.bound < best.cost)) continue;
@@ -181,7 +184,7 @@ void RimTree::searchRim(uint32_t edge, uint32_t rim, RimPartner& best) {
   };
   stack_.clear();
   stack_.push_back({roots_[rim], -kInfinity});
-  while (!stack_.empty()) {
+  while (!stack_.empty() && visits_ < kMostVisits) {
     const Pending top = stack_.back();
     stack_.pop_back();
     if (!(top.bound < best.cost)) continue;
