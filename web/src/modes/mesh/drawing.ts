@@ -20,7 +20,7 @@ const kChosenRim = 4;
 /** Draws from now on whatever there is. */
 export function drawHoles(stage: Stage, { root, placement }: ModeScene): void {
   const { theme } = stage;
-  const [surface, rims, marked] = [new LitSurface(1), new FatLines(), new FatLines()];
+  const [surface, rims, marked] = [new LitSurface(1, 0.55), new FatLines(), new FatLines()];
   root.add(surface.object, rims.object, marked.object);
   const follow = (draw: () => void): void => {
     effect(() => {

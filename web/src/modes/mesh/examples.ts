@@ -53,7 +53,7 @@ function grid(rows: number, columns: number, isClosed: boolean, at: (s: number, 
 
 /** A point of a bumpy torus. */
 function onTorus(s: number, t: number): Point {
-  const [u, v] = [2 * Math.PI * s, -2 * Math.PI * t];
+  const [u, v] = [2 * Math.PI * s, 2 * Math.PI * t];
   const r = 0.42 + 0.035 * Math.cos(6 * u) * Math.cos(3 * v) + 0.02 * Math.sin(9 * u + 2 * v);
   return [(1 + r * Math.cos(v)) * Math.cos(u), (1 + r * Math.cos(v)) * Math.sin(u), r * Math.sin(v)];
 }
@@ -71,13 +71,13 @@ export const kExamples: readonly Example[] = [
     view: [0.55, -1.6, 1.35],
     shape: () =>
       grid(130, 50, true, onTorus, [
-        hole(onTorus(0.75, 0.79), 0.27, 0.1, [0.1, 0.05, 0.42]),
-        hole(onTorus(0.9, 0.86), 0.16, 0.12),
-        hole(onTorus(0.61, 0.8), 0.17, 0.08),
-        hole(onTorus(0.67, 0.02), 0.16, 0.05, [0, 0, 0.4]),
-        hole(onTorus(0.83, 0.03), 0.13, 0.1),
-        hole(onTorus(0.13, 0.8), 0.3, 0.08, [-0.4, 0.2, 0.25], [0.35, -0.2, 0.3]),
-        hole(onTorus(0.36, 0.75), 0.15, 0.15),
+        hole(onTorus(0.75, 0.21), 0.27, 0.1, [0.1, 0.05, 0.42]),
+        hole(onTorus(0.9, 0.14), 0.16, 0.12),
+        hole(onTorus(0.61, 0.2), 0.17, 0.08),
+        hole(onTorus(0.67, 0.98), 0.16, 0.05, [0, 0, 0.4]),
+        hole(onTorus(0.83, 0.97), 0.13, 0.1),
+        hole(onTorus(0.13, 0.2), 0.3, 0.08, [-0.4, 0.2, 0.25], [0.35, -0.2, 0.3]),
+        hole(onTorus(0.36, 0.25), 0.15, 0.15),
         ([x, y]) => x < 0 && Math.abs(y + 0.05 * Math.cos(12 * x)) < 0.09,
       ]),
   },

@@ -6,7 +6,6 @@ import { createWork, plainFailure } from '../../state/work.ts';
 import { found, holes, settings, wishFor } from './holes.ts';
 import type { Hole } from './grouping.ts';
 import { kMode, type MeshSettings, type Smoothness } from './settings.ts';
-import { holeThreads } from './threads.ts';
 import type { Whole } from './whole.ts';
 
 /** What became of one hole. */
@@ -73,7 +72,7 @@ export const filling = createWork<Job, ReadonlyMap<string, Patch>>({
   async compute(film, of, watch) {
     const todo = missing(of);
     if (todo.length === 0) return new Map();
-    const result = await holeThreads(film).fillHoles(
+    const result = await film.fillHoles(
       { positions: of.of.positions, faces: of.of.faces },
       {
         ...of.options,

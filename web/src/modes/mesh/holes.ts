@@ -6,7 +6,6 @@ import { choose, dispatch, endGesture, hover, mode, selection } from '../../stat
 import { createWork, plainFailure } from '../../state/work.ts';
 import { holesOf, join, split, type Hole } from './grouping.ts';
 import { kMode, kNoChoices, meshGroup, type Choices, type MeshSettings } from './settings.ts';
-import { holeThreads } from './threads.ts';
 import { idsOf, loopAt, noteRims, placeOf, wholeOf, type Whole } from './whole.ts';
 
 const items = computed(() => meshGroup.value.items);
@@ -29,7 +28,7 @@ export const finding = createWork<Whole, HoleReport>({
   verb: 'Looking for holes',
   input: whole,
   part: 'meshes',
-  compute: (film, of, { signal: ends }) => holeThreads(film).findHoles({ positions: of.positions, faces: of.faces }, { signal: ends }),
+  compute: (film, of, { signal: ends }) => film.findHoles({ positions: of.positions, faces: of.faces }, { signal: ends }),
   show: (report, of) => {
     if (report && of) noteRims(of, report);
     latest.value = report && of && { of, report };

@@ -87,7 +87,10 @@ export class LitSurface {
   private isSpread = false;
 
   /** @param order surfaces of a higher one lie before others at the same place */
-  constructor(order: number) {
+  constructor(
+    order: number,
+    private readonly wireOpacity: number,
+  ) {
     const material = new ShaderMaterial({
       vertexShader: kVertexShader,
       fragmentShader: kFragmentShader,
@@ -142,7 +145,7 @@ export class LitSurface {
     if (shown === null) return;
     const { positions, faces, marked } = shown;
     const isWired = this.isSpread && faces.length <= 3 * kMostWired;
-    object.material.uniforms.uWireOpacity.value = isWired ? 0.55 : 0;
+    object.material.uniforms.uWireOpacity.value = isWired ? this.wireOpacity : 0;
     const normals = (this.normals ??= normalsOf(positions, faces));
     if (isWired || marked) {
       geometry.setAttribute('position', new BufferAttribute(spread(positions, faces), 3));

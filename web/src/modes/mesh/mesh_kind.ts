@@ -106,7 +106,7 @@ class MeshLayer implements Layer {
 }
 
 function surfaceOf({ positions, faces }: MeshShape, { center, unit }: Drawn['placement']): LitSurface {
-  const made = new LitSurface(0);
+  const made = new LitSurface(0, 0.25);
   made.set({ positions: placed(positions, center, unit), faces });
   return made;
 }

@@ -219,7 +219,7 @@ function HoleRow({ stage, hole, number }: { stage: Stage; hole: Hole; number: nu
           <span>
             Hole {number + 1} <span class="muted">{kindOfHole(hole)}</span>
           </span>
-          <span class="muted">
+          <span class="muted" title="The length of its rims is given in % of the mesh’s diagonal">
             {countOf(hole.vertices, 'vertex', 'vertices')}, {share < 10 ? share.toFixed(1) : share.toFixed(0)} % <span class={`mesh-status ${tone}`}>{word}</span>
           </span>
           {reason !== undefined && <span class="mesh-status bad">{reason}</span>}
