@@ -272,15 +272,20 @@ export function crossings({ mesh, oldFaces }: Pick<FillResult, 'mesh' | 'oldFace
   return found;
 }
 
+const areaOf = ([a, b, c]: readonly Point[]): number => Math.hypot(...cross(subtract(b, a), subtract(c, a))) / 2;
+
 /** Root mean square of a distance over the new faces: their corners and middles, weighted by area. */
 export function rmsOfNew({ mesh, oldFaces }: FillResult, distance: (p: Point) => number): number {
   let [sum, weight] = [0, 0];
   for (const face of triples(mesh.faces.subarray(3 * oldFaces))) {
     const corners = face.map((v) => pointOf(mesh, v));
-    const area = Math.hypot(...cross(subtract(corners[1], corners[0]), subtract(corners[2], corners[0])));
+    const area = areaOf(corners);
     const all = [...corners, mix(corners, [1 / 3, 1 / 3, 1 / 3])];
     sum += (area * all.reduce((s, p) => s + distance(p) ** 2, 0)) / all.length;
     weight += area;
   }
   return Math.sqrt(sum / weight);
 }
+
+export const areaOfNew = ({ mesh, oldFaces }: FillResult): number =>
+  triples(mesh.faces.subarray(3 * oldFaces)).reduce((sum, face) => sum + areaOf(face.map((v) => pointOf(mesh, v))), 0);

@@ -6,6 +6,7 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { errorOf, rejectionOf } from '../support/errors.js';
 import { dot, Random, scale } from '../support/generators.ts';
 import {
+  areaOfNew,
   box,
   crossings,
   cut,
@@ -18,6 +19,7 @@ import {
   rmsOfNew,
   saddle,
   shaken,
+  sheet,
   sphere,
   together,
   torus,
@@ -107,7 +109,11 @@ const cuts: [string, Cut][] = [
   ],
   [
     'an edge of a box',
-    { mesh: cut(box(8), (p) => near(p, [1, 0, 1], 0.5)), groups: ['alone 1'], euler: 2, distance: fromBox, rms: 0.05 },
+    { mesh: cut(box(8), (p) => near(p, [1, 0, 1], 0.5)), groups: ['alone 1'], euler: 2, distance: fromBox, rms: 1e-12 },
+  ],
+  [
+    'a corner of a box',
+    { mesh: cut(box(8), (p) => near(p, [1, 1, 1], 0.5)), groups: ['alone 1'], euler: 2, distance: fromBox, rms: 1e-12 },
   ],
   [
     'noise on a sphere',
@@ -357,13 +363,14 @@ describe('options', () => {
   });
 
   test('weights: area alone has less area, angles alone less bending', () => {
-    const mesh = cut(box(8), (p) => near(p, [1, 0, 1], 0.5));
-    const filled = (weights: Weights) => fillHoles(mesh, { weights, density: 0, fairness: 0 });
+    const bump = cut(sheet(20, (x, y) => Math.exp(-4 * (x * x + y * y))), (p) => near(p, [0, 0, 0.9], 0.6));
+    const filled = (weights: Weights) => fillHoles(bump, { weights, density: 0, fairness: 0 });
     const [area, bending] = [filled({ area: 1 }), filled({ dihedral: 1 })];
-    for (const result of [area, bending]) expectClosed(mesh, result, 2);
-    expect(area.holes[0].cost).toBeLessThan(1);
-    expect(bending.holes[0].cost).toBeCloseTo(Math.PI / 2, 9);
+    for (const { holes } of [area, bending]) expect(holes.map(({ status }) => status)).toEqual(['open-rim', 'filled']);
     expect(area.mesh.faces).not.toEqual(bending.mesh.faces);
+    expect(areaOfNew(area)).toBeCloseTo(area.holes[1].cost, 9);
+    expect(areaOfNew(area)).toBeLessThan(areaOfNew(bending));
+    expect(bending.holes[1].rimAngle.after).toBeLessThan(area.holes[1].rimAngle.after);
   });
 });
 
