@@ -16,13 +16,6 @@ export const mesh: Mode = {
   label: 'Mesh',
   title: 'Holes of scanned meshes, filled',
   files: [
-    {
-      id: 'obj',
-      what: 'an OBJ file of faces',
-      label: 'OBJ',
-      extensions: ['.obj'],
-      isIt: (content) => content.hasStatement('v') && content.hasStatement('f'),
-    },
     { id: 'ply', what: 'a PLY file', label: 'PLY', extensions: ['.ply'], isIt: (content) => hasMark(content, 'ply\n') || hasMark(content, 'ply\r') },
     {
       id: 'stl',
@@ -32,6 +25,13 @@ export const mesh: Mode = {
       isIt: (content) => (content.isText ? /^solid\b[^]*\bfacet\b/.test(content.head) : isBinaryStl(content)),
     },
     { id: 'glb', what: 'a GLB file', label: 'GLB', extensions: ['.glb'], isIt: (content) => hasMark(content, 'glTF') },
+    {
+      id: 'obj',
+      what: 'an OBJ file of faces',
+      label: 'OBJ',
+      extensions: ['.obj'],
+      isIt: (content) => content.hasStatement('v') && content.hasStatement('f'),
+    },
   ],
   fetch: () => import('./room.tsx'),
 };
