@@ -101,6 +101,9 @@ enum SfStateArray { SF_STATE_ARRAYS(SF_ARRAY) SfStateArrayCount };
 #define SF_ARRAY(type, name, meaning) SfHoles_##name,
 enum SfHolesArray { SF_HOLES_ARRAYS(SF_ARRAY) SfHolesArrayCount };
 #undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SfWeld_##name,
+enum SfWeldArray { SF_WELD_ARRAYS(SF_ARRAY) SfWeldArrayCount };
+#undef SF_ARRAY
 #define SF_ARRAY(type, name, meaning) SfFill_##name,
 enum SfFillArray { SF_FILL_ARRAYS(SF_ARRAY) SfFillArrayCount };
 #undef SF_ARRAY
@@ -204,6 +207,14 @@ SF_API(sf_session_close) SfStatus sf_session_close(uint32_t session);
 SF_API(sf_find_holes)
 SfStatus sf_find_holes(const double* positions, uint32_t vertexCount, const uint32_t* faces,
                        uint32_t faceCount, double maxBytes, SfPlace* where, SfResult** result);
+
+/// Makes vertices one that are within `radius` of each other; 0: at the same place.
+///   radius   finite, not negative; the rest as for sf_find_holes
+///   result   out: SF_WELD_ARRAYS; null unless the status is Ok
+SF_API(sf_weld_mesh)
+SfStatus sf_weld_mesh(const double* positions, uint32_t vertexCount, const uint32_t* faces,
+                      uint32_t faceCount, double radius, double maxBytes, SfPlace* where,
+                      SfResult** result);
 
 /// Fills holes of a triangle mesh.
 ///   positions, vertexCount, faces, faceCount, maxBytes   as for sf_find_holes

@@ -231,6 +231,13 @@
   X(uint32_t, edges, "how many are of edges, two for each")          \
   X(uint32_t, vertices, "how many are vertices")
 
+/* sf_weld_mesh */
+
+#define SF_WELD_ARRAYS(X)                                                              \
+  X(double, positions, "[3w] of the first vertex of each place, in the input's order") \
+  X(uint32_t, faces, "[3m] the input's faces")                                         \
+  X(uint32_t, vertexMap, "[n] the new number of each vertex")
+
 /* sf_fill_holes */
 
 #define SF_FAIRING_CHOICES(X)  \
@@ -239,14 +246,17 @@
   X(Curvature, 2, "curvature") \
   X(Auto, 3, "auto")
 
-#define SF_PATCH_SETTINGS(X)                                                              \
-  X(double, areaWeight, "per square unit; NaN: as in SF_SPAN_SETTINGS")                   \
-  X(double, perimeterWeight, "per unit of triangle perimeter")                            \
-  X(double, dihedralWeight, "per radian")                                                 \
-  X(double, space, "a choice of SF_SPACE_CHOICES, but not Given")                         \
-  X(double, fairing, "a choice of SF_FAIRING_CHOICES")                                    \
-  X(double, density, "how much denser than its surroundings the patch is; 0: as spanned") \
-  X(double, maxNewVertices, "most vertices that refining adds")
+#define SF_PATCH_SETTINGS(X)                                                                   \
+  X(double, areaWeight, "per square unit; NaN: as in SF_SPAN_SETTINGS")                        \
+  X(double, perimeterWeight, "per unit of triangle perimeter")                                 \
+  X(double, dihedralWeight, "per radian")                                                      \
+  X(double, space, "a choice of SF_SPACE_CHOICES, but not Given")                              \
+  X(double, fairing, "a choice of SF_FAIRING_CHOICES")                                         \
+  X(double, density, "how much denser than its surroundings the patch is; 0: as spanned")      \
+  X(double, maxNewVertices, "most vertices that refining adds")                                \
+  X(double, crease,                                                                            \
+    "edges between faces that differ by more, in radians, go on through the hole; 0: none do") \
+  X(double, inFloats, "1 if coordinates of new vertices are rounded to single precision, else 0")
 
 #define SF_FILL_STATUS_CHOICES(X)             \
   X(Filled, 0, "filled")                      \

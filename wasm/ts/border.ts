@@ -494,6 +494,21 @@ export const readDefectCounts = (from: ArrayLike<number>, at = 0): DefectCounts 
   vertices: from[at + 3],
 });
 
+export interface WeldArrays {
+  /** [3w] of the first vertex of each place, in the input's order */
+  readonly positions: Float64Array;
+  /** [3m] the input's faces */
+  readonly faces: Uint32Array;
+  /** [n] the new number of each vertex */
+  readonly vertexMap: Uint32Array;
+}
+
+export const readWeldArrays = (array: ArrayReader): WeldArrays => ({
+  positions: array(0, Float64Array),
+  faces: array(1, Uint32Array),
+  vertexMap: array(2, Uint32Array),
+});
+
 export const kFairingChoices = ['none', 'bending', 'curvature', 'auto'] as const;
 
 export interface PatchSettings {
@@ -511,6 +526,10 @@ export interface PatchSettings {
   readonly density: number;
   /** most vertices that refining adds */
   readonly maxNewVertices: number;
+  /** edges between faces that differ by more, in radians, go on through the hole; 0: none do */
+  readonly crease: number;
+  /** 1 if coordinates of new vertices are rounded to single precision, else 0 */
+  readonly inFloats: number;
 }
 
 export const packPatchSettings = (settings: PatchSettings): Float64Array =>
@@ -522,6 +541,8 @@ export const packPatchSettings = (settings: PatchSettings): Float64Array =>
     settings.fairing,
     settings.density,
     settings.maxNewVertices,
+    settings.crease,
+    settings.inFloats,
   );
 
 export const kFillStatusChoices = ['filled', 'self-intersecting', 'failed'] as const;

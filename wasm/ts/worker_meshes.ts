@@ -2,7 +2,7 @@
 import type { SmoothArrays } from './border.js';
 import { optionsOf } from './check.js';
 import type { FilledHoles, FlatMesh, FoundHoles } from './compute_holes.js';
-import { fillOptionsOf, flattenMesh } from './hole_input.js';
+import { fillOptionsOf, flattenMesh, holeOptionsOf } from './hole_input.js';
 import { filledOf, holeListener, planOf, reportOf } from './hole_results.js';
 import { kFillOptions, kHoleOptions, kSmoothOptions, limitsOf, signalOf } from './options.js';
 import type { Pool } from './pool.js';
@@ -15,12 +15,12 @@ type MeshCalls = 'findHoles' | 'fillHoles' | 'smoothSurface';
 /** Calls that check and copy here, have the pool compute, and make the results here. */
 export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
   const find = async (mesh: FlatMesh, options: HoleOptions, signal: AbortSignal | undefined): Promise<FoundHoles> =>
-    (await pool.call('findHoles', [mesh, limitsOf(options)], { signal })) as FoundHoles;
+    (await pool.call('findHoles', [mesh, holeOptionsOf(options)], { signal })) as FoundHoles;
   return {
     async findHoles(mesh, options = {}) {
       const flat = flattenMesh(mesh, true);
       const { signal, ...given } = optionsOf<HoleOptions & CallOptions>(options, { ...kHoleOptions, signal: true });
-      return reportOf((await find(flat, limitsOf(given), signalOf(signal))).arrays);
+      return reportOf(await find(flat, holeOptionsOf(given), signalOf(signal)));
     },
     async fillHoles(mesh, options = {}) {
       const flat = flattenMesh(mesh, true);
@@ -28,7 +28,7 @@ export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
       const signal = signalOf(aborts);
       const given = fillOptionsOf(rest);
       const found = await find(flat, given, signal);
-      const plan = planOf(reportOf(found.arrays), given);
+      const plan = planOf(reportOf(found), given, flat.single);
       // The mesh goes to the thread and comes back, twice, but is not copied.
       const patches = { ...limitsOf(given), work: plan.work, spentSeconds: found.seconds };
       const watch = { signal, onProgress: holeListener(plan, given.onProgress) };

@@ -107,6 +107,8 @@ void fill(const Mesh& mesh, const SfResult* holes, Bytes& in) {
     s.fairing = in.below(4);
     s.density = in.below(4) * 0.7;
     s.maxNewVertices = 4.0 * in.byte();
+    s.crease = in.below(3) * 0.5;
+    s.inFloats = in.below(2);
   }
   SfPlace where;
   SfResult* result = nullptr;

@@ -148,7 +148,7 @@ TEST_CASE("fill: creases of a box go on, through an edge and through a corner") 
     }
     CHECK(most < 1e-9);
     FillOptions plain;
-    plain.creases = false;
+    plain.crease = 0;
     expectWhole(fillAll(box, plain), 1);
   }
 }

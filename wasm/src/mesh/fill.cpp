@@ -14,8 +14,6 @@ constexpr uint32_t kRings = 5;
 constexpr uint32_t kMostForAll = 300;
 /// Angles along the rim below this are none.
 constexpr double kExact = 1e-3;
-/// Edges between faces that differ by more are creases, in radians: 40 degrees.
-constexpr double kCrease = 0.698;
 /// More pairs of intersecting faces are not listed.
 constexpr size_t kMostPairs = 10000;
 
@@ -50,6 +48,7 @@ struct Corner {
 struct HoleFiller::Hole {
   std::vector<Corner> corners;     // loop after loop, as faces that fill them run
   std::vector<uint32_t> starts;    // [k+1] in `corners`
+  double crease = 0;               // of a part: the angle of the creases around it
   bool isPart = false;             // between creases, which bound what is around it as well
   std::vector<uint32_t> vertices;  // of the filled mesh: the fixed vertices, corners first
   LocalSurface surface;            // fixed vertices as in `vertices`
@@ -184,7 +183,7 @@ void HoleFiller::takeRings(Hole& hole, std::vector<uint32_t>& faces) {
 void HoleFiller::takeSide(Hole& hole, std::vector<uint32_t>& faces) {
   for (const Corner& corner : hole.corners)
     if (corner.edge != kNone) faces.push_back(rims_.halves[corner.edge] / 3);
-  const Creases creases(mesh_, adjacency_, fanStarts_, fans_, kCrease);
+  const Creases creases(mesh_, adjacency_, fanStarts_, fans_, hole.crease);
   std::vector<uint32_t> known(faces);
   std::sort(known.begin(), known.end());
   size_t stepStart = 0;
@@ -327,7 +326,7 @@ Status HoleFiller::fill(ArrayView<const uint32_t> rims, const FillOptions& optio
                         FilledHole& result) {
   result = {};
   bool isDone = false;
-  if (options.creases && rims.size() == 1) {
+  if (options.crease > 0 && rims.size() == 1) {
     const Status status = fillParts(rims[0], options, result, isDone);
     if (status != Status::Ok || isDone) return status;
     result = {};
@@ -348,7 +347,7 @@ Status HoleFiller::fill(ArrayView<const uint32_t> rims, const FillOptions& optio
 /// Fills the parts of a hole between creases that end at its rim. `isDone`: there are such, and all are filled well.
 Status HoleFiller::fillParts(uint32_t rim, const FillOptions& options, FilledHole& result,
                              bool& isDone) {
-  const Creases creases(mesh_, adjacency_, fanStarts_, fans_, kCrease);
+  const Creases creases(mesh_, adjacency_, fanStarts_, fans_, options.crease);
   const HoleParts parts = partHole(mesh_, rims_, rim, creases);
   if (parts.parts.empty()) return Status::Ok;
   const size_t positions = newPositions_.size(), faces = newFaces_.size();
@@ -361,6 +360,7 @@ Status HoleFiller::fillParts(uint32_t rim, const FillOptions& options, FilledHol
   for (const auto& part : parts.parts) {
     Hole hole;
     hole.isPart = true;
+    hole.crease = options.crease;
     for (const PartCorner& c : part)
       hole.corners.push_back({c.vertex != kNone ? c.vertex : firstPoint + c.added, c.edge});
     hole.starts = {0, uint32_t(hole.corners.size())};

@@ -26,7 +26,7 @@ struct FillOptions {
   double density = 1.4142135623730951;  // as in RefineOptions
   uint32_t maxNewVertices = 0xFFFFFFFFu;
   bool inFloats = false;  // whether coordinates of new vertices are rounded to single precision
-  bool creases = true;    // whether creases that end at the rim go on
+  double crease = 0.698;  // edges between faces that differ by more, in radians, go on; 0: none do
 };
 
 enum class FillStatus : uint8_t { Filled, SelfIntersecting, Failed };
