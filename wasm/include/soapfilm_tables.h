@@ -263,14 +263,15 @@
   X(SelfIntersecting, 1, "self-intersecting") \
   X(Failed, 2, "failed")
 
-#define SF_FILL_REASON_CHOICES(X)         \
-  X(None, 0, "none")                      \
-  X(NoSurface, 1, "no-surface")           \
-  X(RimsIntersect, 2, "rims-intersect")   \
-  X(RepeatedVertex, 3, "repeated-vertex") \
-  X(DuplicateFace, 4, "duplicate-face")   \
-  X(TooLarge, 5, "too-large")             \
-  X(InsertedVertices, 6, "inserted-vertices")
+#define SF_FILL_REASON_CHOICES(X)             \
+  X(None, 0, "none")                          \
+  X(NoSurface, 1, "no-surface")               \
+  X(RimsIntersect, 2, "rims-intersect")       \
+  X(RepeatedVertex, 3, "repeated-vertex")     \
+  X(DuplicateFace, 4, "duplicate-face")       \
+  X(TooLarge, 5, "too-large")                 \
+  X(InsertedVertices, 6, "inserted-vertices") \
+  X(Stitched, 7, "stitched")
 
 #define SF_FILL_ARRAYS(X)                                                      \
   X(double, positions, "[3a] the vertices of all patches, numbered from n on") \

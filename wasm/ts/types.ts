@@ -508,6 +508,8 @@ export type HoleReason =
   | 'duplicate-face'
   | 'too-large'
   | 'inserted-vertices'
+  /** Filled, but in part at least by triangles without area: the rim touches itself. */
+  | 'stitched'
   | 'too-many-vertices'
   | 'too-long'
   | 'not-asked-for';

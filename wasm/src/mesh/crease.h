@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/vec.h"
 #include "mesh/find.h"
+#include "mesh/hole_part.h"
 
 namespace sf {
 
@@ -30,18 +30,6 @@ class Creases {
   const std::vector<uint32_t>& fanStarts_;
   const std::vector<uint32_t>& fans_;
   double cosine_;
-};
-
-/// A corner of the loop around a part of a hole, and the edge from it to the next one.
-struct PartCorner {
-  uint32_t edge = kNone;    // the rim edge that begins there; kNone where a crease goes on
-  uint32_t vertex = kNone;  // of the input; kNone: `added`
-  uint32_t added = kNone;   // in the list of points on creases
-};
-
-struct HoleParts {
-  std::vector<std::vector<PartCorner>> parts;  // a loop each, as faces that fill it run
-  std::vector<Vec3> points;                    // on the creases
 };
 
 /// The parts of a hole with one rim at which two, three or four creases end; none where that is not so.

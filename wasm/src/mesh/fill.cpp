@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh/smooth_patch.h"
+#include "mesh/stitch.h"
 
 namespace sf {
 namespace {
@@ -325,9 +326,14 @@ bool HoleFiller::append(const Hole& hole) {
 Status HoleFiller::fill(ArrayView<const uint32_t> rims, const FillOptions& options,
                         FilledHole& result) {
   result = {};
-  bool isDone = false;
-  if (options.crease > 0 && rims.size() == 1) {
-    const Status status = fillParts(rims[0], options, result, isDone);
+  if (rims.size() == 1) {
+    HoleParts parts = stitchRim(mesh_, rims_, rims[0]);
+    if (parts.triangles.empty() && options.crease > 0) {
+      const Creases creases(mesh_, adjacency_, fanStarts_, fans_, options.crease);
+      parts = partHole(mesh_, rims_, rims[0], creases);
+    }
+    bool isDone = false;
+    const Status status = fillParts(parts, options, result, isDone);
     if (status != Status::Ok || isDone) return status;
     result = {};
   }
@@ -344,22 +350,25 @@ Status HoleFiller::fill(ArrayView<const uint32_t> rims, const FillOptions& optio
   return status;
 }
 
-/// Fills the parts of a hole between creases that end at its rim. `isDone`: there are such, and all are filled well.
-Status HoleFiller::fillParts(uint32_t rim, const FillOptions& options, FilledHole& result,
+/// Fills the parts of a hole apart. `isDone`: there are such, and all are filled well.
+Status HoleFiller::fillParts(const HoleParts& parts, const FillOptions& options, FilledHole& result,
                              bool& isDone) {
-  const Creases creases(mesh_, adjacency_, fanStarts_, fans_, options.crease);
-  const HoleParts parts = partHole(mesh_, rims_, rim, creases);
-  if (parts.parts.empty()) return Status::Ok;
+  const std::vector<uint32_t>& between = parts.triangles;
+  const bool isStitched = !between.empty();
+  if (parts.parts.empty() && !isStitched) return Status::Ok;
   const size_t positions = newPositions_.size(), faces = newFaces_.size();
   const uint32_t firstPoint = vertexCount();
   result.firstFace = faceCount();
+  if (!charge_.add(sizeof(Vec3) * parts.points.size() + sizeof(uint32_t) * between.size()))
+    return work_.status();
   for (const Vec3 p : parts.points) newPositions_.insert(newPositions_.end(), {p.x, p.y, p.z});
+  newFaces_.insert(newFaces_.end(), between.begin(), between.end());
   Status status = Status::Ok;
   bool isGood = true, areOptimal = true;
   double before = 0, after = 0, cost = 0, bound = 0;
   for (const auto& part : parts.parts) {
     Hole hole;
-    hole.isPart = true;
+    hole.isPart = !isStitched;
     hole.crease = options.crease;
     for (const PartCorner& c : part)
       hole.corners.push_back({c.vertex != kNone ? c.vertex : firstPoint + c.added, c.edge});
@@ -377,8 +386,9 @@ Status HoleFiller::fillParts(uint32_t rim, const FillOptions& options, FilledHol
     result.movedLess = std::max(result.movedLess, filled.movedLess);
   }
   result.endFace = faceCount();
-  // Parts may be clean each by itself and still meet.
-  if (isGood && !findOwnPairs(result.firstFace, result.endFace, result.intersections))
+  // Parts may be clean each by itself and still meet. What is stitched touches itself, as the rim does.
+  if (isGood && !isStitched &&
+      !findOwnPairs(result.firstFace, result.endFace, result.intersections))
     status = work_.status();
   isDone = status == Status::Ok && isGood && result.intersections.empty();
   if (!isDone) {
@@ -386,6 +396,7 @@ Status HoleFiller::fillParts(uint32_t rim, const FillOptions& options, FilledHol
     return status;
   }
   result.status = FillStatus::Filled;
+  if (isStitched) result.reason = FillReason::Stitched;
   result.rimAngleBefore = before, result.rimAngleAfter = after;
   result.cost = cost, result.lowerBound = bound, result.optimal = areOptimal;
   return Status::Ok;

@@ -13,6 +13,7 @@
 #include "mesh/bvh.h"
 #include "mesh/crease.h"
 #include "mesh/group.h"
+#include "mesh/hole_part.h"
 #include "mesh/intersect.h"
 
 namespace sf {
@@ -39,6 +40,7 @@ enum class FillReason : uint8_t {
   DuplicateFace,     // the patch would be a face that is there already
   TooLarge,          // for the memory that there is
   InsertedVertices,  // only a surface with vertices on the rim was found
+  Stitched,  // filled, in part at least by triangles without area between vertices in one place
 };
 
 /// A hole's patch. Vertices from `MeshView`'s count on are its own, numbered on from those of earlier patches.
@@ -72,7 +74,8 @@ class HoleFiller {
  private:
   struct Hole;
   Status fillPart(Hole& hole, const FillOptions& options, FilledHole& result);
-  Status fillParts(uint32_t rim, const FillOptions& options, FilledHole& result, bool& isDone);
+  Status fillParts(const HoleParts& parts, const FillOptions& options, FilledHole& result,
+                   bool& isDone);
   Status span(Hole& hole, const FillOptions& options, FilledHole& result);
   void surround(Hole& hole);
   void takeRings(Hole& hole, std::vector<uint32_t>& faces);

@@ -64,13 +64,13 @@ void placeVoters(const Rims& rims, const UnitScale& at, Voters& voters) {
   }
 }
 
-bool facesNothing(const RimPartner& best, bool isOfSlit) {
+bool facesNothing(const RimPartner& best, bool isOfOwnRim, bool isOfSlit) {
   if (best.edge == kNone) return true;
   if (!(best.turn > kTurnOfOpen)) return false;
-  // At the same place lies an edge that should have been welded.
-  const bool isAtOnePlace = std::isinf(best.cost);
+  // At the same place lies the other side of a slit, or an edge that should have been welded.
+  if (std::isinf(best.cost)) return !isOfOwnRim;
   const bool isAcrossSlit = best.turn < kTurnAcrossSlit && best.rotation < kRotationAcrossSlit;
-  return isAtOnePlace || !isOfSlit || !isAcrossSlit;
+  return !isOfSlit || !isAcrossSlit;
 }
 
 }  // namespace
@@ -109,7 +109,8 @@ bool castVotes(const MeshView& mesh, const Rims& rims, Work& work, Charge& charg
       const uint32_t other = best.edge == kNone ? r : voters.sides[best.edge].rim;
       // An edge without a partner elsewhere is judged as if there were only its own rim.
       const bool isUnrequited = other != r && best.cost > partners[best.edge].cost + kUnrequited;
-      if (facesNothing(isUnrequited ? own[e] : best, voters.isSlit[r] != 0)) {
+      const bool isOfOwnRim = isUnrequited || other == r;
+      if (facesNothing(isUnrequited ? own[e] : best, isOfOwnRim, voters.isSlit[r] != 0)) {
         result.openness[r] += share;
         continue;
       }

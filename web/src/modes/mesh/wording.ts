@@ -12,6 +12,7 @@ const kReasons: Record<HoleReason, string> = {
   'duplicate-face': 'the only triangle that fits is there already',
   'too-large': 'it is too large',
   'inserted-vertices': 'its rim would have to be split',
+  'stitched': 'its sides touch each other, and were sewn',
   'too-many-vertices': 'its rims have too many vertices',
   'too-long': 'its rim is too long',
   'not-asked-for': 'it was not asked for',
