@@ -40,6 +40,7 @@ describe('examples', () => {
       '05-worker.mjs',
       '06-extrude.mjs',
       '07-fill-holes.mjs',
+      '08-soap-film.mjs',
     ]);
   });
 
@@ -120,5 +121,13 @@ describe('examples', () => {
     expect(lines[5]).toMatch(/^hole 0 alone: \d+ faces, closed: false$/);
     const file = await readFile(path.join(consumer.folder, 'torus.obj'), 'utf8');
     expect(openEdgesOf(file)).toBe(0);
+  });
+
+  test('08-soap-film: a catenoid to a thousandth of its radius, and none between rings too far apart', async () => {
+    const output = await run('08-soap-film.mjs', 'film.obj');
+    expect(output).toContain('at rest: true');
+    const [, off] = decimals(output);
+    expect(off).toBeLessThan(2e-3);
+    expect(output).toContain('rings 2 apart: no film between them');
   });
 });
