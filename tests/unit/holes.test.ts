@@ -22,6 +22,7 @@ import {
   sheet,
   sphere,
   together,
+  toPoint,
   torus,
   tube,
   turned,
@@ -468,7 +469,7 @@ describe('attributes', () => {
 describe('limits and listeners', () => {
   /** Enough work for the core to look up several times. */
   const many = cut(sphere(40), (p) => {
-    const directions = [0, 1, 2].flatMap((axis) => [-1, 1].map((side) => [0, 1, 2].map((i) => (i === axis ? side : 0)) as Point));
+    const directions = [0, 1, 2].flatMap((axis) => [-1, 1].map((side) => toPoint([0, 1, 2].map((i) => (i === axis ? side : 0)))));
     return directions.some((direction) => angle(p, direction) < 0.5);
   });
 
