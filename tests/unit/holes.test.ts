@@ -492,6 +492,34 @@ describe('limits and listeners', () => {
     expect(fillHoles(kTwoCaps).closed).toBe(true);
   });
 
+  test('four threads share the holes: the same result, progress that rises, a signal that ends all of it', async () => {
+    const four = await createWorker({ size: 4 });
+    try {
+      for (const options of [{}, { output: 'patches' as const }, { perHole: { 2: { density: 0 } }, holes: [4, 0, 2] }]) {
+        const heard: [number, number, number][] = [];
+        const onProgress = (...values: [number, number, number]) => {
+          heard.push(values);
+        };
+        expect(await four.fillHoles(many, { ...options, onProgress })).toEqual(fillHoles(many, options));
+        const fractions = heard.map(([fraction]) => fraction);
+        expect(fractions).toEqual([...fractions].sort((a, b) => a - b));
+        expect(fractions.at(-1)).toBe(1);
+      }
+      const stop = new AbortController();
+      const onProgress = () => {
+        stop.abort('enough');
+      };
+      const error = await rejectionOf(four.fillHoles(many, { signal: stop.signal, onProgress }));
+      expect(error).toMatchObject({ code: 'cancelled', cause: 'enough' });
+      const reason = new Error('of the listener');
+      const thrown = four.fillHoles(many, { onProgress: () => { throw reason; } });
+      await expect(thrown).rejects.toBe(reason);
+      expect(await four.fillHoles(many)).toEqual(fillHoles(many));
+    } finally {
+      four.dispose();
+    }
+  });
+
   test('onProgress: rises to the end, and names the holes in turn', async () => {
     const heard: [string, [number, number, number][]][] = [['here', []], ['there', []]];
     const [here, there] = heard.map(([, calls]) => ({

@@ -102,62 +102,125 @@ export function planOf(report: HoleReport, options: FillOptions, single: boolean
   return { report, groups, todo, holes, work: { starts, loops, settings: packed } };
 }
 
-/** Makes of a listener for holes one for the fraction of a plan's work. */
-export function holeListener({ todo }: FillPlan, onProgress: FillOptions['onProgress']): ProgressListener | undefined {
-  if (!onProgress) return undefined;
-  return (fraction) => {
-    onProgress(fraction, todo[Math.min(todo.length - 1, Math.floor(fraction * todo.length))], todo.length);
-  };
+/**
+ * Cuts work into at most `count` parts, in order, that take about as long as each other. Holes do not depend
+ * on each other, so the parts may be done anywhere.
+ */
+export function partsOf({ starts, loops, settings }: PatchWork, { report }: FillPlan, count: number): PatchWork[] {
+  const holes = starts.length - 1;
+  // Measured: the time for a hole grows about like the power 1.5 of its vertices.
+  const effort = (hole: number): number =>
+    loops.subarray(starts[hole], starts[hole + 1]).reduce((sum, loop) => sum + report.loops[loop].vertices.length, 0) ** 1.5;
+  const sums = [0];
+  for (let hole = 0; hole < holes; hole++) sums.push(sums[hole] + effort(hole));
+  const parts: PatchWork[] = [];
+  const size = settings.length / holes;
+  for (let from = 0, part = 1; from < holes; part++) {
+    let to = from + 1;
+    while (to < holes && sums[to] + sums[to + 1] <= (2 * part * sums[holes]) / count) to++;
+    parts.push({
+      starts: starts.slice(from, to + 1).map((start) => start - starts[from]),
+      loops: loops.slice(starts[from], starts[to]),
+      settings: settings.slice(size * from, size * to),
+    });
+    from = to;
+  }
+  return parts;
+}
+
+/** Listeners for the parts of a plan's work, that together tell one listener for holes how far the whole is. */
+export function partListeners(
+  { todo }: FillPlan,
+  parts: readonly PatchWork[],
+  onProgress: FillOptions['onProgress'],
+): (ProgressListener | undefined)[] {
+  const done = parts.map(() => 0);
+  let from = 0;
+  return parts.map(({ starts }, part) => {
+    if (!onProgress) return undefined;
+    const [first, count] = [from, starts.length - 1];
+    from += count;
+    return (fraction) => {
+      done[part] = fraction * count;
+      const hole = first + Math.min(count - 1, Math.floor(done[part]));
+      onProgress(done.reduce((sum, holes) => sum + holes, 0) / todo.length, todo[hole], todo.length);
+    };
+  });
+}
+
+/** The parts of the work, done, as one. */
+function joined(plan: FillPlan, parts: readonly FillArrays[], oldVertices: number, oldFaces: number) {
+  const holes = [...plan.holes];
+  const positions = new Float64Array(parts.reduce((sum, part) => sum + part.positions.length, 0));
+  const faces = new Uint32Array(parts.reduce((sum, part) => sum + part.faces.length, 0));
+  let [hole, newVertices, newFaces] = [0, 0, 0];
+  for (const part of parts) {
+    // What a part has numbered from the end of the mesh on, other parts come before.
+    const faceOf = (face: number): number => (face < oldFaces ? face : face + newFaces);
+    const vertexOf = (vertex: number): number => (vertex < oldVertices ? vertex : vertex + newVertices);
+    let pair = 0;
+    for (let at = 0; at < part.holes.length; at += kFilledFactsLength) {
+      const group = plan.todo[hole++];
+      const facts = readFilledFacts(part.holes, at);
+      const reason = kFillReasonChoices[facts.reason];
+      holes[group] = {
+        group,
+        status: kFillStatusChoices[facts.status],
+        ...(reason !== 'none' && { reason }),
+        faces: [faceOf(facts.firstFace), faceOf(facts.endFace)],
+        cost: facts.cost,
+        lowerBound: facts.lowerBound,
+        optimal: facts.optimal === 1,
+        rimAngle: { before: facts.rimAngleBefore, after: facts.rimAngleAfter },
+        intersections: part.pairs.slice(pair, (pair += 2 * facts.pairs)).map(faceOf),
+        fairnessUsed: Math.max(0, facts.fairnessUsed - 1) as 0 | 1 | 2,
+        movedLess: facts.movedLess,
+      };
+    }
+    positions.set(part.positions, 3 * newVertices);
+    faces.set(part.faces.map(vertexOf), 3 * newFaces);
+    newVertices += part.positions.length / 3;
+    newFaces += part.faces.length / 3;
+  }
+  return { holes, positions, faces };
 }
 
 /** The result, and the last call of `onProgress`. If that throws, its error is reported: the work is done. */
-export function filledOf(mesh: FlatMesh, plan: FillPlan, arrays: FillArrays, { output, onProgress }: FillOptions): FillResult {
-  const holes = [...plan.holes];
-  let pair = 0;
-  plan.todo.forEach((g, i) => {
-    const facts = readFilledFacts(arrays.holes, kFilledFactsLength * i);
-    const reason = kFillReasonChoices[facts.reason];
-    holes[g] = {
-      group: g,
-      status: kFillStatusChoices[facts.status],
-      ...(reason !== 'none' && { reason }),
-      faces: [facts.firstFace, facts.endFace],
-      cost: facts.cost,
-      lowerBound: facts.lowerBound,
-      optimal: facts.optimal === 1,
-      rimAngle: { before: facts.rimAngleBefore, after: facts.rimAngleAfter },
-      intersections: arrays.pairs.slice(pair, (pair += 2 * facts.pairs)),
-      fairnessUsed: Math.max(0, facts.fairnessUsed - 1) as 0 | 1 | 2,
-      movedLess: facts.movedLess,
-    };
-  });
+export function filledOf(
+  mesh: FlatMesh,
+  plan: FillPlan,
+  parts: readonly FillArrays[],
+  { output, onProgress }: FillOptions,
+): FillResult {
+  const oldVertices = mesh.positions.length / 3;
+  const oldFaces = mesh.faces.length / 3;
+  const { holes, ...patches } = joined(plan, parts, oldVertices, oldFaces);
   const old = output === 'patches' ? { positions: new Float64Array(), faces: new Uint32Array() } : mesh;
-  const positions = new (mesh.single ? Float32Array : Float64Array)(old.positions.length + arrays.positions.length);
-  const faces = new Uint32Array(old.faces.length + arrays.faces.length);
+  const positions = new (mesh.single ? Float32Array : Float64Array)(old.positions.length + patches.positions.length);
+  const faces = new Uint32Array(old.faces.length + patches.faces.length);
   positions.set(old.positions);
-  positions.set(arrays.positions, old.positions.length);
+  positions.set(patches.positions, old.positions.length);
   faces.set(old.faces);
-  faces.set(arrays.faces, old.faces.length);
+  faces.set(patches.faces, old.faces.length);
   if (plan.todo.length > 0) {
     try {
-      holeListener(plan, onProgress)?.(1, 0, 0);
+      onProgress?.(1, plan.todo[plan.todo.length - 1], plan.todo.length);
     } catch (error) {
       reportError(error);
     }
   }
   const { vertexMap } = plan.report;
-  const oldVertices = mesh.positions.length / 3;
-  const added = arrays.positions.length / 3;
+  const added = patches.positions.length / 3;
   let attributes = mesh.attributes;
   if (attributes && vertexMap) attributes = weldedAttributes(attributes, vertexMap, oldVertices);
   if (attributes) {
-    attributes = carriedOn(attributes, oldVertices, added, arrays.faces);
+    attributes = carriedOn(attributes, oldVertices, added, patches.faces);
     if (output === 'patches') attributes = tailsOf(attributes, oldVertices);
   }
   return {
     mesh: { positions, faces, ...(attributes && { attributes }) },
     oldVertices,
-    oldFaces: mesh.faces.length / 3,
+    oldFaces,
     closed: holes.every(({ status }) => status === 'filled') && countLoops(plan.groups) === plan.report.loops.length,
     holes,
     defects: plan.report.defects,

@@ -2,7 +2,7 @@
 import { optionsOf } from './check.js';
 import { computeHoles, computePatches } from './compute_holes.js';
 import { fillOptionsOf, flattenMesh, holeOptionsOf } from './hole_input.js';
-import { filledOf, holeListener, planOf, reportOf } from './hole_results.js';
+import { filledOf, partListeners, planOf, reportOf } from './hole_results.js';
 import { kFillOptions, kHoleOptions, limitsOf } from './options.js';
 import type { FillOptions, FillResult, HoleOptions, HoleReport, MeshInput } from './types.js';
 
@@ -30,7 +30,7 @@ export function fillHoles(mesh: MeshInput, options: FillOptions = {}): FillResul
   const given = fillOptionsOf(optionsOf(options, kFillOptions));
   const found = computeHoles(flat, given);
   const plan = planOf(reportOf(found), given, flat.single);
-  const onProgress = holeListener(plan, given.onProgress);
+  const [onProgress] = partListeners(plan, [plan.work], given.onProgress);
   const filled = computePatches(found.mesh, { ...limitsOf(given), work: plan.work, spentSeconds: found.seconds, onProgress });
-  return filledOf(found.mesh, plan, filled.arrays, given);
+  return filledOf(found.mesh, plan, [filled.arrays], given);
 }

@@ -42,6 +42,7 @@ export { SoapfilmError } from './errors.js';
 export interface WorkerOptions extends LoadOptions {
   /**
    * Most threads at once for calls. One starts with the pool, others when there is work for them. Default 1.
+   * The holes of one mesh are shared out among them, with the same result for any number.
    * Sessions have threads of their own, up to as many again: no call that takes long holds up an edit, and none
    * that is cancelled costs a session. These start when they are needed, and end when they have no session.
    */

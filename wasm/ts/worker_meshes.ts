@@ -3,7 +3,7 @@ import type { SmoothArrays } from './border.js';
 import { optionsOf } from './check.js';
 import type { FilledHoles, FlatMesh, FoundHoles } from './compute_holes.js';
 import { fillOptionsOf, flattenMesh, holeOptionsOf } from './hole_input.js';
-import { filledOf, holeListener, planOf, reportOf } from './hole_results.js';
+import { filledOf, partListeners, partsOf, planOf, reportOf } from './hole_results.js';
 import { kFillOptions, kHoleOptions, kSmoothOptions, limitsOf, signalOf } from './options.js';
 import type { Pool } from './pool.js';
 import { smoothOf, smoothWorkOf } from './smooth.js';
@@ -29,11 +29,17 @@ export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
       const given = fillOptionsOf(rest);
       const found = await find(flat, given, signal);
       const plan = planOf(reportOf(found), given, flat.single);
-      // The mesh goes to the thread and comes back, twice, but is not copied.
-      const patches = { ...limitsOf(given), work: plan.work, spentSeconds: found.seconds };
-      const watch = { signal, onProgress: holeListener(plan, given.onProgress) };
-      const filled = (await pool.call('fillHoles', [found.mesh, patches], watch)) as FilledHoles;
-      return filledOf(filled.mesh, plan, filled.arrays, given);
+      const parts = partsOf(plan.work, plan, pool.size);
+      const listeners = partListeners(plan, parts, given.onProgress);
+      // One thread is handed the mesh itself, the others copies.
+      const { positions, faces, single } = found.mesh;
+      const copy = (): FlatMesh => ({ positions: positions.slice(), faces: faces.slice(), single });
+      const meshes = parts.map((_, i) => (i === 0 ? found.mesh : copy()));
+      const filled = await together(signal, parts, (work, i, ends) => {
+        const patches = { ...limitsOf(given), work, spentSeconds: found.seconds };
+        return pool.call('fillHoles', [meshes[i], patches], { signal: ends, onProgress: listeners[i] }) as Promise<FilledHoles>;
+      });
+      return filledOf(filled[0]?.mesh ?? found.mesh, plan, filled.map(({ arrays }) => arrays), given);
     },
     async smoothSurface(surface, options = {}) {
       const flat = flattenMesh(surface, true, 'surface');
@@ -42,4 +48,26 @@ export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
       return smoothOf((await pool.call('smoothSurface', [flat, smoothWorkOf(given)], watch)) as SmoothArrays);
     },
   };
+}
+
+/** Starts work on all parts at once. The first that fails, or the signal, ends the others. */
+async function together<P, R>(
+  signal: AbortSignal | undefined,
+  parts: readonly P[],
+  start: (part: P, number: number, ends: AbortSignal) => Promise<R>,
+): Promise<R[]> {
+  const ends = new AbortController();
+  const abort = (): void => {
+    ends.abort(signal?.reason);
+  };
+  if (signal?.aborted) abort();
+  signal?.addEventListener('abort', abort);
+  try {
+    return await Promise.all(parts.map((part, i) => start(part, i, ends.signal)));
+  } catch (error) {
+    ends.abort();
+    throw error;
+  } finally {
+    signal?.removeEventListener('abort', abort);
+  }
 }
