@@ -201,12 +201,14 @@ const kPolygonOptions = {
   trace: kFlag,
   borrow: kFlag,
 } as const;
+const kWeld: readonly Kind[] = ['missing', ...kPositive];
 const kPatchOptions = {
   weights: ['missing'],
   candidates: ['missing'],
   fairness: ['missing'],
   density: ['missing', 'fraction'],
   maxNewVertices: kLimit,
+  creases: ['missing', 'fraction', 'true', 'false'],
 } as const;
 const kPolygonsOptions = { ...kPolygonOptions, skipInvalid: kFlag };
 
@@ -226,6 +228,13 @@ export function functionSlots(functions: Functions, more: Readonly<Record<string
       ['mesh.positions, alone', (v) => call({ positions: v, faces: new Uint32Array() }), floats, /`mesh\.positions`/],
       ['mesh.faces', (v) => call({ ...kTwoHoles, faces: v }), ['Uint32Array'], /`mesh\.faces`/],
       ['mesh.triangles', (v) => call({ positions: kTwoHoles.positions, triangles: v }), ['Uint32Array'], /`mesh\.(triangles|faces)`/],
+    ]);
+  const attributeSlots = (name: string, call: typeof span) =>
+    slots(name, ['bad-attributes'], [
+      ['mesh.attributes', (v) => call({ ...kTwoHoles, attributes: v }), kOptions],
+      ['mesh.attributes.colour', (v) => call({ ...kTwoHoles, attributes: { colour: v } }), ['missing']],
+      ['mesh.attributes.colour.data', (v) => call({ ...kTwoHoles, attributes: { colour: { data: v, size: 3 } } }), [], /attributes/],
+      ['mesh.attributes.colour.size', (v) => call({ ...kTwoHoles, attributes: { colour: { data: new Float32Array(24), size: v } } }), [], /attributes/],
     ]);
   const weigh = (weights: object) => span([kLoop], { weights });
   const choose = (candidates: object) => span([kLoop], { candidates: { triangles: kSurface.triangles, ...candidates } });
@@ -309,11 +318,14 @@ export function functionSlots(functions: Functions, more: Readonly<Record<string
     ]),
     ...optionSlots('triangulateGeoJSON', (options) => geojson(kFeature, options), { ...kPolygonsOptions, ...more }),
     ...meshSlots('findHoles', find),
-    ...optionSlots('findHoles', (options) => find(kTwoHoles, options), { ...kLimits, ...more }),
+    ...attributeSlots('findHoles', find),
+    ...optionSlots('findHoles', (options) => find(kTwoHoles, options), { ...kLimits, weld: kWeld, ...more }),
     ...meshSlots('fillHoles', fill),
+    ...attributeSlots('fillHoles', fill),
     ...optionSlots('fillHoles', (options) => fill(kTwoHoles, options), {
       ...kLimits,
       ...kPatchOptions,
+      weld: kWeld,
       holes: ['missing', 'empty array', 'short array'],
       groups: ['missing', 'empty array'],
       perHole: kOptions,

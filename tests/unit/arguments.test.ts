@@ -166,7 +166,7 @@ const kPolygonNames = [
   'maxMemoryBytes', 'maxSeconds', 'method', 'output', 'quality', 'verify', 'repair', 'trace', 'borrow',
 ];
 const kFillNames = [
-  'maxMemoryBytes', 'maxSeconds', 'weights', 'candidates', 'fairness', 'density', 'maxNewVertices', 'holes', 'groups',
+  'maxMemoryBytes', 'maxSeconds', 'weld', 'weights', 'candidates', 'fairness', 'density', 'maxNewVertices', 'creases', 'holes', 'groups',
   'perHole', 'fillOpenRims', 'maxVertices', 'maxLength', 'output', 'onProgress',
 ];
 const readers: [string, readonly string[], (options: object) => unknown][] = [
@@ -176,7 +176,7 @@ const readers: [string, readonly string[], (options: object) => unknown][] = [
   ['film.triangulatePolygons', [...kPolygonNames, 'skipInvalid', 'signal'], (options) => film.triangulatePolygons([[kSquare]], options)],
   ['PolygonSession', ['maxMemoryBytes'], (options) => new PolygonSession([kSquare], options)],
   ['film.createPolygonSession', ['maxMemoryBytes', 'signal'], (options) => film.createPolygonSession([kSquare], options)],
-  ['findHoles', ['maxMemoryBytes', 'maxSeconds'], (options) => findHoles(kTwoHoles, options)],
+  ['findHoles', ['maxMemoryBytes', 'maxSeconds', 'weld'], (options) => findHoles(kTwoHoles, options)],
   ['fillHoles', kFillNames, (options) => fillHoles(kTwoHoles, options)],
   ['film.fillHoles', [...kFillNames, 'signal'], (options) => film.fillHoles(kTwoHoles, options)],
   ['smoothSurface', ['maxMemoryBytes', 'maxSeconds', 'kind', 'density', 'maxNewVertices'], (options) => smoothSurface(kTwoHoles, options)],
@@ -279,6 +279,9 @@ describe('meshes with faults', () => {
     ['perHole', { perHole: { 0: { fair: 1 } } }],
     ['density', { density: 101 }],
     ['fairness', { fairness: 3 }],
+    ['creases', { creases: 181 }],
+    ['weld', { weld: -1 }],
+    ['weld', { weld: Infinity }],
   ];
   test.each(beyond)('%s, %o: bad-option', async (name, options) => {
     for (const error of [

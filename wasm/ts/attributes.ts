@@ -1,7 +1,7 @@
 // Attributes of a mesh's vertices, such as colours, carried on over patches: harmonic, so that every new vertex is the
 // mean of its neighbours and those on the rim keep what they have.
+import { fieldsOf, guarded, mustBe, viewOf } from './check.js';
 import { SoapfilmError } from './errors.js';
-import { mustBe, viewOf, guarded } from './check.js';
 import type { MeshAttribute } from './types.js';
 
 export type Attributes = Readonly<Record<string, MeshAttribute>>;
@@ -12,20 +12,21 @@ export type Attributes = Readonly<Record<string, MeshAttribute>>;
  */
 export function attributesOf(given: unknown, vertices: number, own: boolean): Attributes | undefined {
   if (given === undefined) return undefined;
-  return guarded('bad-attributes', 'mesh.attributes', () => {
-    if (typeof given !== 'object' || given === null) throw mustBe('bad-attributes', 'mesh.attributes', 'an object', given);
-    const entries = Object.entries(given as Record<string, unknown>).map(([name, value]): [string, MeshAttribute] => {
-      const path = `mesh.attributes.${name}`;
-      const { data, size } = (value ?? {}) as { readonly data?: unknown; readonly size?: unknown };
-      const numbers = viewOf(['Float32Array'], data);
-      const fits = typeof size === 'number' && Number.isInteger(size) && size >= 1 && numbers?.length === size * vertices;
-      if (!numbers || !fits) throw mustBe('bad-attributes', path, `{ data: a Float32Array of ${vertices} times size numbers, size }`, value);
-      const wrong = numbers.findIndex((x) => !Number.isFinite(x));
-      if (wrong >= 0) throw new SoapfilmError('bad-attributes', `\`${path}\` has a number that is not finite`, { vertex: Math.floor(wrong / size) });
-      return [name, { data: own ? numbers.slice() : numbers, size }];
-    });
-    return Object.fromEntries(entries);
+  const code = 'bad-attributes';
+  const keys = guarded(code, 'mesh.attributes', () => Object.keys(given as object));
+  const all = Object.fromEntries(keys.map((key) => [key, true])) as Record<string, true>;
+  const fields = fieldsOf<Record<string, unknown>>(given, all, 'mesh.attributes', code);
+  const entries = Object.entries(fields).map(([name, value]): [string, MeshAttribute] => {
+    const path = `mesh.attributes.${name}`;
+    const { data, size } = fieldsOf<MeshAttribute>(value, { data: true, size: true }, path, code);
+    const numbers = guarded(code, path, () => viewOf(['Float32Array'], data));
+    const fits = typeof size === 'number' && Number.isInteger(size) && size >= 1 && numbers?.length === size * vertices;
+    if (!numbers || !fits) throw mustBe(code, path, `{ data: a Float32Array of ${vertices} times size numbers, size }`, value);
+    const wrong = numbers.findIndex((x) => !Number.isFinite(x));
+    if (wrong >= 0) throw new SoapfilmError(code, `\`${path}\` has a number that is not finite`, { vertex: Math.floor(wrong / size) });
+    return [name, { data: own ? numbers.slice() : numbers, size }];
   });
+  return Object.fromEntries(entries);
 }
 
 /** The attributes of the vertices that were the first at their places. */
