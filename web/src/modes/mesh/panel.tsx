@@ -201,7 +201,7 @@ function statusOf(hole: Hole): Status {
   const patch = patchOf(hole);
   if (patch === null) return isFilling.value ? ['filling…', ''] : ['not filled', 'bad'];
   if (!isFilled(patch)) return ['failed', 'bad', reasonIn(patch)];
-  return patch.result.status === 'self-intersecting' ? ['filled', 'bad', 'but it crosses something, in red'] : ['filled', 'good'];
+  return patch.result.status === 'self-intersecting' ? ['filled', 'bad', 'it crosses something: marked in red'] : ['filled', 'good'];
 }
 
 function HoleRow({ stage, hole, number }: { stage: Stage; hole: Hole; number: number }) {
