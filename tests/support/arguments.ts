@@ -8,6 +8,7 @@ import {
   type fillHoles,
   type findHoles,
   type PolygonSession,
+  type smoothSurface,
   type spanLoops,
   type triangulateGeoJSON,
   type triangulatePolygon,
@@ -161,6 +162,7 @@ export interface Functions {
   readonly triangulateGeoJSON: typeof triangulateGeoJSON | Film['triangulateGeoJSON'];
   readonly findHoles: typeof findHoles | Film['findHoles'];
   readonly fillHoles: typeof fillHoles | Film['fillHoles'];
+  readonly smoothSurface: typeof smoothSurface | Film['smoothSurface'];
 }
 
 type Call = (...args: never[]) => unknown;
@@ -199,12 +201,14 @@ const kPolygonOptions = {
   trace: kFlag,
   borrow: kFlag,
 } as const;
+const kWeld: readonly Kind[] = ['missing', ...kPositive];
 const kPatchOptions = {
   weights: ['missing'],
   candidates: ['missing'],
   fairness: ['missing'],
   density: ['missing', 'fraction'],
   maxNewVertices: kLimit,
+  creases: ['missing', 'fraction', 'true', 'false'],
 } as const;
 const kPolygonsOptions = { ...kPolygonOptions, skipInvalid: kFlag };
 
@@ -216,6 +220,7 @@ export function functionSlots(functions: Functions, more: Readonly<Record<string
   const geojson = functions.triangulateGeoJSON as Call as typeof span;
   const find = functions.findHoles as Call as typeof span;
   const fill = functions.fillHoles as Call as typeof span;
+  const smooth = functions.smoothSurface as Call as typeof span;
   const meshSlots = (name: string, call: typeof span) =>
     slots(name, ['bad-mesh', 'not-finite'], [
       ['mesh', call],
@@ -223,6 +228,13 @@ export function functionSlots(functions: Functions, more: Readonly<Record<string
       ['mesh.positions, alone', (v) => call({ positions: v, faces: new Uint32Array() }), floats, /`mesh\.positions`/],
       ['mesh.faces', (v) => call({ ...kTwoHoles, faces: v }), ['Uint32Array'], /`mesh\.faces`/],
       ['mesh.triangles', (v) => call({ positions: kTwoHoles.positions, triangles: v }), ['Uint32Array'], /`mesh\.(triangles|faces)`/],
+    ]);
+  const attributeSlots = (name: string, call: typeof span) =>
+    slots(name, ['bad-attributes'], [
+      ['mesh.attributes', (v) => call({ ...kTwoHoles, attributes: v }), kOptions],
+      ['mesh.attributes.colour', (v) => call({ ...kTwoHoles, attributes: { colour: v } }), ['missing']],
+      ['mesh.attributes.colour.data', (v) => call({ ...kTwoHoles, attributes: { colour: { data: v, size: 3 } } }), [], /attributes/],
+      ['mesh.attributes.colour.size', (v) => call({ ...kTwoHoles, attributes: { colour: { data: new Float32Array(24), size: v } } }), [], /attributes/],
     ]);
   const weigh = (weights: object) => span([kLoop], { weights });
   const choose = (candidates: object) => span([kLoop], { candidates: { triangles: kSurface.triangles, ...candidates } });
@@ -306,11 +318,14 @@ export function functionSlots(functions: Functions, more: Readonly<Record<string
     ]),
     ...optionSlots('triangulateGeoJSON', (options) => geojson(kFeature, options), { ...kPolygonsOptions, ...more }),
     ...meshSlots('findHoles', find),
-    ...optionSlots('findHoles', (options) => find(kTwoHoles, options), { ...kLimits, ...more }),
+    ...attributeSlots('findHoles', find),
+    ...optionSlots('findHoles', (options) => find(kTwoHoles, options), { ...kLimits, weld: kWeld, ...more }),
     ...meshSlots('fillHoles', fill),
+    ...attributeSlots('fillHoles', fill),
     ...optionSlots('fillHoles', (options) => fill(kTwoHoles, options), {
       ...kLimits,
       ...kPatchOptions,
+      weld: kWeld,
       holes: ['missing', 'empty array', 'short array'],
       groups: ['missing', 'empty array'],
       perHole: kOptions,
@@ -319,6 +334,21 @@ export function functionSlots(functions: Functions, more: Readonly<Record<string
       maxLength: kLimit,
       output: ['missing'],
       onProgress: kCallback,
+      ...more,
+    }),
+    ...slots('smoothSurface', ['bad-mesh', 'not-finite'], [
+      ['surface', smooth],
+      ['surface.positions', (v) => smooth({ ...kTwoHoles, positions: v }), [], /`surface\.positions`|Face 0/],
+      ['surface.positions, alone', (v) => smooth({ positions: v, faces: new Uint32Array() }), floats, /`surface\.positions`/],
+      // A face with one vertex three times is no surface.
+      ['surface.faces', (v) => smooth({ ...kTwoHoles, faces: v }), [], /`surface\.faces`|Face 0/],
+      ['surface.triangles', (v) => smooth({ positions: kTwoHoles.positions, triangles: v }), [], /`surface\.(triangles|faces)`|Face 0/],
+    ]),
+    ...optionSlots('smoothSurface', (options) => smooth(kTwoHoles, options), {
+      ...kLimits,
+      kind: ['missing'],
+      density: ['missing', 'fraction'],
+      maxNewVertices: kLimit,
       ...more,
     }),
     ...slots('fillHoles, options', ['bad-option', 'bad-weights'], [

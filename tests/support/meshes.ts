@@ -8,6 +8,9 @@ export interface Mesh {
   readonly faces: Uint32Array;
 }
 
+/** A point of three numbers in a list. */
+export const toPoint = ([x, y, z]: readonly number[]): Point => [x, y, z];
+
 const triples = (list: ArrayLike<number>): [number, number, number][] =>
   Array.from({ length: list.length / 3 }, (_, i) => [list[3 * i], list[3 * i + 1], list[3 * i + 2]]);
 
@@ -80,7 +83,7 @@ export function sphere(n: number): Mesh {
       subdivided(n).map((triangle) =>
         triangle.map((share): Point => {
           const p = mix(corner, share);
-          return p.map((x) => x / Math.hypot(...p)) as Point;
+          return toPoint(p.map((x) => x / Math.hypot(...p)));
         }),
       ),
     ),
@@ -88,7 +91,7 @@ export function sphere(n: number): Mesh {
 }
 
 const mix = (corners: readonly Point[], share: readonly number[]): Point =>
-  [0, 1, 2].map((axis) => corners.reduce((sum, corner, i) => sum + share[i] * corner[axis], 0)) as Point;
+  toPoint([0, 1, 2].map((axis) => corners.reduce((sum, corner, i) => sum + share[i] * corner[axis], 0)));
 
 /** Barycentric corners of the n² parts of a triangle. */
 function subdivided(n: number): number[][][] {
@@ -108,11 +111,11 @@ export function box(n: number): Mesh {
   const sides = [-1, 1].flatMap((side) =>
     [0, 1, 2].map((axis) =>
       grid(n, n, [false, false], (u, v) => {
-        const p: Point = [0, 0, 0];
+        const p = [0, 0, 0];
         p[axis] = side;
         p[(axis + 1) % 3] = (2 * u - 1) * side;
         p[(axis + 2) % 3] = 2 * v - 1;
-        return p;
+        return toPoint(p);
       }),
     ),
   );
@@ -245,7 +248,7 @@ function pierces(p: Point, q: Point, [a, b, c]: readonly Point[]): boolean {
   const [above, below] = [dot(subtract(p, a), normal) / size, dot(subtract(q, a), normal) / size];
   if (!(above > kLeast && below < -kLeast) && !(above < -kLeast && below > kLeast)) return false;
   const t = above / (above - below);
-  const x = p.map((v, i) => v + t * (q[i] - v)) as Point;
+  const x = toPoint(p.map((v, i) => v + t * (q[i] - v)));
   const inside = (s: Point, e: Point) => dot(cross(subtract(e, s), subtract(x, s)), normal) / (size * Math.hypot(...subtract(e, s)));
   return Math.min(inside(a, b), inside(b, c), inside(c, a)) > kLeast;
 }
@@ -272,15 +275,20 @@ export function crossings({ mesh, oldFaces }: Pick<FillResult, 'mesh' | 'oldFace
   return found;
 }
 
+const areaOf = ([a, b, c]: readonly Point[]): number => Math.hypot(...cross(subtract(b, a), subtract(c, a))) / 2;
+
 /** Root mean square of a distance over the new faces: their corners and middles, weighted by area. */
 export function rmsOfNew({ mesh, oldFaces }: FillResult, distance: (p: Point) => number): number {
   let [sum, weight] = [0, 0];
   for (const face of triples(mesh.faces.subarray(3 * oldFaces))) {
     const corners = face.map((v) => pointOf(mesh, v));
-    const area = Math.hypot(...cross(subtract(corners[1], corners[0]), subtract(corners[2], corners[0])));
+    const area = areaOf(corners);
     const all = [...corners, mix(corners, [1 / 3, 1 / 3, 1 / 3])];
     sum += (area * all.reduce((s, p) => s + distance(p) ** 2, 0)) / all.length;
     weight += area;
   }
   return Math.sqrt(sum / weight);
 }
+
+export const areaOfNew = ({ mesh, oldFaces }: FillResult): number =>
+  triples(mesh.faces.subarray(3 * oldFaces)).reduce((sum, face) => sum + areaOf(face.map((v) => pointOf(mesh, v))), 0);

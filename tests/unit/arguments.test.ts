@@ -5,6 +5,7 @@ import {
   formatObj,
   load,
   PolygonSession,
+  smoothSurface,
   SoapfilmError,
   spanLoops,
   triangulateGeoJSON,
@@ -84,7 +85,7 @@ async function tryAll({ call, valid, names, codes }: Slot): Promise<void> {
   expect(fillHoles(kTwoHoles).closed).toBe(true);
 }
 
-const here: Functions = { spanLoops, triangulatePolygon, triangulatePolygons, triangulateGeoJSON, findHoles, fillHoles };
+const here: Functions = { spanLoops, triangulatePolygon, triangulatePolygons, triangulateGeoJSON, findHoles, fillHoles, smoothSurface };
 const there: Pick<Film, keyof Functions> = {
   spanLoops: (loops, options) => film.spanLoops(loops, options),
   triangulatePolygon: (polygon, options) => film.triangulatePolygon(polygon, options),
@@ -92,6 +93,7 @@ const there: Pick<Film, keyof Functions> = {
   triangulateGeoJSON: (geojson, options) => film.triangulateGeoJSON(geojson, options),
   findHoles: (mesh, options) => film.findHoles(mesh, options),
   fillHoles: (mesh, options) => film.fillHoles(mesh, options),
+  smoothSurface: (surface, options) => film.smoothSurface(surface, options),
 };
 
 const openHere = (polygon: unknown, options?: unknown): PolygonSession =>
@@ -164,7 +166,7 @@ const kPolygonNames = [
   'maxMemoryBytes', 'maxSeconds', 'method', 'output', 'quality', 'verify', 'repair', 'trace', 'borrow',
 ];
 const kFillNames = [
-  'maxMemoryBytes', 'maxSeconds', 'weights', 'candidates', 'fairness', 'density', 'maxNewVertices', 'holes', 'groups',
+  'maxMemoryBytes', 'maxSeconds', 'weld', 'weights', 'candidates', 'fairness', 'density', 'maxNewVertices', 'creases', 'holes', 'groups',
   'perHole', 'fillOpenRims', 'maxVertices', 'maxLength', 'output', 'onProgress',
 ];
 const readers: [string, readonly string[], (options: object) => unknown][] = [
@@ -174,9 +176,10 @@ const readers: [string, readonly string[], (options: object) => unknown][] = [
   ['film.triangulatePolygons', [...kPolygonNames, 'skipInvalid', 'signal'], (options) => film.triangulatePolygons([[kSquare]], options)],
   ['PolygonSession', ['maxMemoryBytes'], (options) => new PolygonSession([kSquare], options)],
   ['film.createPolygonSession', ['maxMemoryBytes', 'signal'], (options) => film.createPolygonSession([kSquare], options)],
-  ['findHoles', ['maxMemoryBytes', 'maxSeconds'], (options) => findHoles(kTwoHoles, options)],
+  ['findHoles', ['maxMemoryBytes', 'maxSeconds', 'weld'], (options) => findHoles(kTwoHoles, options)],
   ['fillHoles', kFillNames, (options) => fillHoles(kTwoHoles, options)],
   ['film.fillHoles', [...kFillNames, 'signal'], (options) => film.fillHoles(kTwoHoles, options)],
+  ['smoothSurface', ['maxMemoryBytes', 'maxSeconds', 'kind', 'density', 'maxNewVertices'], (options) => smoothSurface(kTwoHoles, options)],
   ['load', ['parts', 'wasm', 'checks'], (options) => load(options)],
   ['createWorker', ['parts', 'wasm', 'checks', 'size'], (options) => createWorker(options)],
   ['formatObj', ['name', 'precision'], (options) => formatObj(kSurface, options)],
@@ -276,6 +279,9 @@ describe('meshes with faults', () => {
     ['perHole', { perHole: { 0: { fair: 1 } } }],
     ['density', { density: 101 }],
     ['fairness', { fairness: 3 }],
+    ['creases', { creases: 181 }],
+    ['weld', { weld: -1 }],
+    ['weld', { weld: Infinity }],
   ];
   test.each(beyond)('%s, %o: bad-option', async (name, options) => {
     for (const error of [

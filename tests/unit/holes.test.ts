@@ -6,6 +6,7 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { errorOf, rejectionOf } from '../support/errors.js';
 import { dot, Random, scale } from '../support/generators.ts';
 import {
+  areaOfNew,
   box,
   crossings,
   cut,
@@ -18,8 +19,10 @@ import {
   rmsOfNew,
   saddle,
   shaken,
+  sheet,
   sphere,
   together,
+  toPoint,
   torus,
   tube,
   turned,
@@ -107,7 +110,11 @@ const cuts: [string, Cut][] = [
   ],
   [
     'an edge of a box',
-    { mesh: cut(box(8), (p) => near(p, [1, 0, 1], 0.5)), groups: ['alone 1'], euler: 2, distance: fromBox, rms: 0.05 },
+    { mesh: cut(box(8), (p) => near(p, [1, 0, 1], 0.5)), groups: ['alone 1'], euler: 2, distance: fromBox, rms: 1e-12 },
+  ],
+  [
+    'a corner of a box',
+    { mesh: cut(box(8), (p) => near(p, [1, 1, 1], 0.5)), groups: ['alone 1'], euler: 2, distance: fromBox, rms: 1e-12 },
   ],
   [
     'noise on a sphere',
@@ -357,20 +364,112 @@ describe('options', () => {
   });
 
   test('weights: area alone has less area, angles alone less bending', () => {
-    const mesh = cut(box(8), (p) => near(p, [1, 0, 1], 0.5));
-    const filled = (weights: Weights) => fillHoles(mesh, { weights, density: 0, fairness: 0 });
+    const bump = cut(sheet(20, (x, y) => Math.exp(-4 * (x * x + y * y))), (p) => near(p, [0, 0, 0.9], 0.6));
+    const filled = (weights: Weights) => fillHoles(bump, { weights, density: 0, fairness: 0 });
     const [area, bending] = [filled({ area: 1 }), filled({ dihedral: 1 })];
-    for (const result of [area, bending]) expectClosed(mesh, result, 2);
-    expect(area.holes[0].cost).toBeLessThan(1);
-    expect(bending.holes[0].cost).toBeCloseTo(Math.PI / 2, 9);
+    for (const { holes } of [area, bending]) expect(holes.map(({ status }) => status)).toEqual(['open-rim', 'filled']);
     expect(area.mesh.faces).not.toEqual(bending.mesh.faces);
+    expect(areaOfNew(area)).toBeCloseTo(area.holes[1].cost, 9);
+    expect(areaOfNew(area)).toBeLessThan(areaOfNew(bending));
+    expect(bending.holes[1].rimAngle.after).toBeLessThan(area.holes[1].rimAngle.after);
+  });
+});
+
+describe('weld', () => {
+  const soup = {
+    positions: Float64Array.from([...kTwoCaps.faces].flatMap((v) => [...kTwoCaps.positions.subarray(3 * v, 3 * v + 3)])),
+    faces: kTwoCaps.faces.map((_, i) => i),
+  };
+
+  test.each([0, 1e-6])('%d: a soup of triangles is welded, and filled like the mesh', async (weld) => {
+    const report = findHoles(soup, { weld });
+    expect(report.groups.map(({ why }) => why)).toEqual(['alone', 'alone']);
+    const result = fillHoles(soup, { weld });
+    const { vertexMap, oldVertices, oldFaces, mesh } = result;
+    expect(vertexMap).toEqual(report.vertexMap);
+    expect(oldVertices).toBe(kTwoCaps.positions.length / 3);
+    expect(oldFaces).toBe(kTwoCaps.faces.length / 3);
+    expect(result.closed).toBe(true);
+    expect(openEdges(mesh.faces)).toEqual([]);
+    soup.faces.forEach((v, i) => {
+      const to = vertexMap?.[v] as number;
+      expect(mesh.faces[i]).toBe(to);
+      expect(mesh.positions.subarray(3 * to, 3 * to + 3)).toEqual(soup.positions.subarray(3 * v, 3 * v + 3));
+    });
+    expect(rmsOfNew(result, fromSphere)).toBeLessThan(1e-3);
+    expect(await film.findHoles(soup, { weld })).toEqual(report);
+    expect(await film.fillHoles(soup, { weld })).toEqual(result);
+  });
+
+  test('not asked for: as many loops as faces, and no map', () => {
+    const report = findHoles(soup);
+    expect(report.loops.length).toBe(soup.faces.length / 3);
+    expect(report.vertexMap).toBeUndefined();
+  });
+});
+
+describe('creases', () => {
+  // Without the corner itself, which no triangle on the rim alone has.
+  const corner = cut(box(8), (p) => near(p, [1, 1, 1], 0.5));
+
+  test('go on through a hole; not if they are not wanted, or turn too little', () => {
+    for (const creases of [undefined, true, 40, 89]) {
+      expect(rmsOfNew(fillHoles(corner, creases === undefined ? {} : { creases }), fromBox)).toBeLessThan(1e-12);
+    }
+    for (const creases of [false, 91]) {
+      const result = fillHoles(corner, { creases });
+      expectClosed(corner, result, 2);
+      expect(rmsOfNew(result, fromBox)).toBeGreaterThan(1e-3);
+    }
+    const each = fillHoles(corner, { creases: false, perHole: { 0: { creases: true } } });
+    expect(rmsOfNew(each, fromBox)).toBeLessThan(1e-12);
+  });
+});
+
+describe('attributes', () => {
+  const count = kTwoCaps.positions.length / 3;
+  const attributes = {
+    place: { data: Float32Array.from(kTwoCaps.positions), size: 3 },
+    one: { data: new Float32Array(count).fill(0.25), size: 1 },
+  };
+  const mesh = { ...kTwoCaps, attributes };
+
+  test('are kept, and go on over patches between the values of the rim', async () => {
+    const result = fillHoles(mesh);
+    expectClosed(mesh, result, 2);
+    const { place, one } = result.mesh.attributes ?? {};
+    const total = result.mesh.positions.length / 3;
+    expect(place.data.length).toBe(3 * total);
+    expect(place.data.slice(0, 3 * count)).toEqual(attributes.place.data);
+    for (const x of one.data) expect(x).toBeCloseTo(0.25, 4);
+    // Harmonic: as high as the rim, where the patch itself rises above it.
+    for (let i = 3 * count; i < 3 * total; i++) {
+      expect(Math.abs(place.data[i] - result.mesh.positions[i])).toBeLessThan(0.1);
+    }
+    expect(await film.fillHoles(mesh)).toEqual(result);
+    expect(attributes.one.data.length).toBe(count);
+  });
+
+  test('of patches alone: the tail', () => {
+    const { mesh: all } = fillHoles(mesh);
+    const { mesh: patches } = fillHoles(mesh, { output: 'patches' });
+    expect(patches.attributes?.place.data).toEqual(all.attributes?.place.data.slice(3 * count));
+    expect(fillHoles(kTwoCaps).mesh.attributes).toBeUndefined();
+  });
+
+  test('not finite, or of another length: bad-attributes, with their name', () => {
+    for (const data of [new Float32Array(count - 1), new Float32Array(count).fill(NaN)]) {
+      const error = errorOf(() => fillHoles({ ...kTwoCaps, attributes: { one: { data, size: 1 } } }));
+      expect(error.code).toBe('bad-attributes');
+      expect(error.message).toContain('mesh.attributes.one');
+    }
   });
 });
 
 describe('limits and listeners', () => {
   /** Enough work for the core to look up several times. */
   const many = cut(sphere(40), (p) => {
-    const directions = [0, 1, 2].flatMap((axis) => [-1, 1].map((side) => [0, 1, 2].map((i) => (i === axis ? side : 0)) as Point));
+    const directions = [0, 1, 2].flatMap((axis) => [-1, 1].map((side) => toPoint([0, 1, 2].map((i) => (i === axis ? side : 0)))));
     return directions.some((direction) => angle(p, direction) < 0.5);
   });
 

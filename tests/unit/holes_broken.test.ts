@@ -2,7 +2,7 @@
 import { fillHoles, findHoles, load, type DefectKind, type FillOptions, type FillResult, type Point } from 'soapfilm';
 import { beforeAll, describe, expect, test } from 'vitest';
 import { Random } from '../support/generators.ts';
-import { box, cut, directedEdges, expectKeeps, expectRanges, moebius, near, sphere, torus, tube, type Mesh } from '../support/meshes.ts';
+import { box, cut, directedEdges, expectKeeps, expectRanges, moebius, near, sphere, toPoint, torus, tube, type Mesh } from '../support/meshes.ts';
 
 beforeAll(() => load());
 
@@ -75,7 +75,7 @@ function bowTie(): Mesh {
 function tJunction(): Mesh {
   const { positions, faces } = box(4);
   const [p, q, r] = [...faces.subarray(0, 3)];
-  const middle = [0, 1, 2].map((i) => (positions[3 * p + i] + positions[3 * q + i]) / 2) as Point;
+  const middle = toPoint([0, 1, 2].map((i) => (positions[3 * p + i] + positions[3 * q + i]) / 2));
   const m = positions.length / 3;
   return withVertices({ positions, faces: faces.slice(3) }, [middle], p, m, r, m, q, r);
 }

@@ -74,6 +74,12 @@ typedef struct SfPatchSettings {
 typedef struct SfFilledFacts {
   SF_FILLED_FACTS_RECORD(SF_FIELD)
 } SfFilledFacts;
+typedef struct SfSmoothSettings {
+  SF_SMOOTH_SETTINGS(SF_FIELD)
+} SfSmoothSettings;
+typedef struct SfSmoothNumbers {
+  SF_SMOOTH_NUMBERS_RECORD(SF_FIELD)
+} SfSmoothNumbers;
 #undef SF_FIELD
 
 // The arrays of each result, by name: SfSpan_triangles and the like.
@@ -95,8 +101,14 @@ enum SfStateArray { SF_STATE_ARRAYS(SF_ARRAY) SfStateArrayCount };
 #define SF_ARRAY(type, name, meaning) SfHoles_##name,
 enum SfHolesArray { SF_HOLES_ARRAYS(SF_ARRAY) SfHolesArrayCount };
 #undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SfWeld_##name,
+enum SfWeldArray { SF_WELD_ARRAYS(SF_ARRAY) SfWeldArrayCount };
+#undef SF_ARRAY
 #define SF_ARRAY(type, name, meaning) SfFill_##name,
 enum SfFillArray { SF_FILL_ARRAYS(SF_ARRAY) SfFillArrayCount };
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SfSmooth_##name,
+enum SfSmoothArray { SF_SMOOTH_ARRAYS(SF_ARRAY) SfSmoothArrayCount };
 #undef SF_ARRAY
 
 /// Arrays handed back by one call; owned by the caller until sf_result_free.
@@ -196,6 +208,14 @@ SF_API(sf_find_holes)
 SfStatus sf_find_holes(const double* positions, uint32_t vertexCount, const uint32_t* faces,
                        uint32_t faceCount, double maxBytes, SfPlace* where, SfResult** result);
 
+/// Makes vertices one that are within `radius` of each other; 0: at the same place.
+///   radius   finite, not negative; the rest as for sf_find_holes
+///   result   out: SF_WELD_ARRAYS; null unless the status is Ok
+SF_API(sf_weld_mesh)
+SfStatus sf_weld_mesh(const double* positions, uint32_t vertexCount, const uint32_t* faces,
+                      uint32_t faceCount, double radius, double maxBytes, SfPlace* where,
+                      SfResult** result);
+
 /// Fills holes of a triangle mesh.
 ///   positions, vertexCount, faces, faceCount, maxBytes   as for sf_find_holes
 ///   groupStarts   [groupCount + 1] from 0, increasing: where the loops of each hole begin
@@ -208,6 +228,15 @@ SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount, const uint
                        uint32_t faceCount, const uint32_t* groupStarts, uint32_t groupCount,
                        const uint32_t* groupLoops, const SfPatchSettings* settings, double maxBytes,
                        SfPlace* where, SfResult** result);
+
+/// Smooths a surface between its boundary: a soap film, or a plate.
+///   positions, vertexCount, triangles, triangleCount   manifold, oriented, with a boundary
+///   where    out: the vertex at fault; for BadMesh, the triangle as `vertex`
+///   result   out: SF_SMOOTH_ARRAYS; null unless the status is Ok
+SF_API(sf_smooth_surface)
+SfStatus sf_smooth_surface(const double* positions, uint32_t vertexCount, const uint32_t* triangles,
+                           uint32_t triangleCount, const SfSmoothSettings* settings, SfPlace* where,
+                           SfResult** result);
 
 #ifdef __cplusplus
 }

@@ -494,6 +494,21 @@ export const readDefectCounts = (from: ArrayLike<number>, at = 0): DefectCounts 
   vertices: from[at + 3],
 });
 
+export interface WeldArrays {
+  /** [3w] of the first vertex of each place, in the input's order */
+  readonly positions: Float64Array;
+  /** [3m] the input's faces */
+  readonly faces: Uint32Array;
+  /** [n] the new number of each vertex */
+  readonly vertexMap: Uint32Array;
+}
+
+export const readWeldArrays = (array: ArrayReader): WeldArrays => ({
+  positions: array(0, Float64Array),
+  faces: array(1, Uint32Array),
+  vertexMap: array(2, Uint32Array),
+});
+
 export const kFairingChoices = ['none', 'bending', 'curvature', 'auto'] as const;
 
 export interface PatchSettings {
@@ -511,6 +526,10 @@ export interface PatchSettings {
   readonly density: number;
   /** most vertices that refining adds */
   readonly maxNewVertices: number;
+  /** edges between faces that differ by more, in radians, go on through the hole; 0: none do */
+  readonly crease: number;
+  /** 1 if coordinates of new vertices are rounded to single precision, else 0 */
+  readonly inFloats: number;
 }
 
 export const packPatchSettings = (settings: PatchSettings): Float64Array =>
@@ -522,6 +541,8 @@ export const packPatchSettings = (settings: PatchSettings): Float64Array =>
     settings.fairing,
     settings.density,
     settings.maxNewVertices,
+    settings.crease,
+    settings.inFloats,
   );
 
 export const kFillStatusChoices = ['filled', 'self-intersecting', 'failed'] as const;
@@ -590,4 +611,62 @@ export const readFilledFacts = (from: ArrayLike<number>, at = 0): FilledFacts =>
   firstFace: from[at + 9],
   endFace: from[at + 10],
   pairs: from[at + 11],
+});
+
+export const kSurfaceKindChoices = ['soap-film', 'thin-plate', 'curvature'] as const;
+
+export interface SmoothSettings {
+  /** a choice of SF_SURFACE_KIND_CHOICES */
+  readonly kind: number;
+  /** how much denser than its boundary the surface is; 0: as it is */
+  readonly density: number;
+  /** most vertices that refining adds */
+  readonly maxNewVertices: number;
+  /** memory limit */
+  readonly maxBytes: number;
+}
+
+export const packSmoothSettings = (settings: SmoothSettings): Float64Array =>
+  Float64Array.of(
+    settings.kind,
+    settings.density,
+    settings.maxNewVertices,
+    settings.maxBytes,
+  );
+
+export interface SmoothArrays {
+  /** [3n] the boundary's vertices as given, then those inside */
+  readonly positions: Float64Array;
+  /** [3m] wound as given */
+  readonly triangles: Uint32Array;
+  /** [b] the numbers that the first b vertices had */
+  readonly boundary: Uint32Array;
+  /** vertices where no film exists */
+  readonly collapsed: Uint32Array;
+  /** SmoothNumbers: [1] */
+  readonly numbers: Float64Array;
+}
+
+export const readSmoothArrays = (array: ArrayReader): SmoothArrays => ({
+  positions: array(0, Float64Array),
+  triangles: array(1, Uint32Array),
+  boundary: array(2, Uint32Array),
+  collapsed: array(3, Uint32Array),
+  numbers: array(4, Float64Array),
+});
+
+export interface SmoothNumbers {
+  /** of the surface */
+  readonly area: number;
+  /** 1 if a further step of a film would move nothing, else 0 */
+  readonly isMinimal: number;
+}
+
+/** How many numbers of an array make one. */
+export const kSmoothNumbersLength = 2;
+
+/** The one that begins at index `at`. */
+export const readSmoothNumbers = (from: ArrayLike<number>, at = 0): SmoothNumbers => ({
+  area: from[at],
+  isMinimal: from[at + 1],
 });

@@ -1,9 +1,9 @@
 // Holes, once the arguments are checked: asks the core, and hands on its arrays. Threads need only this half.
-import { readFillArrays, readHolesArrays, type FillArrays, type HolesArrays } from './border.js';
+import { readFillArrays, readHolesArrays, readWeldArrays, type FillArrays, type HolesArrays } from './border.js';
 import { meshError } from './messages.js';
 import type { Limits } from './options.js';
 import { callCore, kDefaultMemoryBytes, shared, type CoreArgument } from './runtime.js';
-import type { ProgressListener } from './types.js';
+import type { HoleOptions, MeshAttribute, ProgressListener } from './types.js';
 
 /** A mesh whose arrays are of the right kinds. */
 export interface FlatMesh {
@@ -11,6 +11,7 @@ export interface FlatMesh {
   readonly faces: Uint32Array;
   /** Whether the caller's positions are single. */
   readonly single: boolean;
+  readonly attributes?: Readonly<Record<string, MeshAttribute>>;
 }
 
 /** Groups of loops to fill, and the settings of each. */
@@ -23,6 +24,8 @@ export interface PatchWork {
 /** Holes that were found, in the core's arrays; the mesh itself, which a caller in another thread has given away; and the time. */
 export interface FoundHoles {
   readonly arrays: HolesArrays;
+  /** With `weld`: the new number of each vertex; the mesh is the welded one then, still with the attributes of all. */
+  readonly vertexMap: Uint32Array | undefined;
   readonly mesh: FlatMesh;
   readonly seconds: number;
 }
@@ -34,11 +37,21 @@ const argumentsOf = ({ positions, faces }: FlatMesh): CoreArgument[] => [
   faces.length / 3,
 ];
 
-export function computeHoles(mesh: FlatMesh, { maxSeconds, maxMemoryBytes = kDefaultMemoryBytes }: Limits): FoundHoles {
+export function computeHoles(given: FlatMesh, options: HoleOptions): FoundHoles {
+  const { weld, maxSeconds, maxMemoryBytes = kDefaultMemoryBytes } = options;
   const started = performance.now();
+  const watch = { maxSeconds, explain: meshError };
+  let [mesh, vertexMap]: [FlatMesh, Uint32Array | undefined] = [given, undefined];
+  if (weld !== undefined) {
+    const args = [...argumentsOf(given), weld, maxMemoryBytes];
+    const { arrays } = callCore(shared.meshes, 'sf_weld_mesh', args, readWeldArrays, watch);
+    vertexMap = arrays.vertexMap;
+    mesh = { ...given, positions: arrays.positions, faces: arrays.faces };
+  }
+  const spent = (): number => (performance.now() - started) / 1000;
   const args = [...argumentsOf(mesh), maxMemoryBytes];
-  const { arrays } = callCore(shared.meshes, 'sf_find_holes', args, readHolesArrays, { maxSeconds, explain: meshError });
-  return { arrays, mesh, seconds: (performance.now() - started) / 1000 };
+  const { arrays } = callCore(shared.meshes, 'sf_find_holes', args, readHolesArrays, { ...watch, spentSeconds: spent() });
+  return { arrays, mesh, vertexMap, seconds: spent() };
 }
 
 /** Limits, listener and what is to be filled. */

@@ -11,6 +11,7 @@ export type ErrorCode =
   | 'repeated-vertex'
   | 'loops-intersect'
   | 'bad-mesh'
+  | 'bad-attributes'
   | 'bad-normals'
   | 'bad-weights'
   | 'bad-candidates'

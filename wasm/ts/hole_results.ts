@@ -16,9 +16,9 @@ import {
   readGroupFacts,
   readLoopFacts,
   type FillArrays,
-  type HolesArrays,
 } from './border.js';
-import type { FlatMesh, PatchWork } from './compute_holes.js';
+import { carriedOn, tailsOf, weldedAttributes } from './attributes.js';
+import type { FlatMesh, FoundHoles, PatchWork } from './compute_holes.js';
 import { SoapfilmError } from './errors.js';
 import { report as reportError } from './report.js';
 import type {
@@ -34,7 +34,8 @@ import type {
   ProgressListener,
 } from './types.js';
 
-export function reportOf({ loopStarts, loopVertices, loopFacts, groupStarts, groupLoops, groupFacts, ...rest }: HolesArrays): HoleReport {
+export function reportOf({ arrays, vertexMap }: Pick<FoundHoles, 'arrays' | 'vertexMap'>): HoleReport {
+  const { loopStarts, loopVertices, loopFacts, groupStarts, groupLoops, groupFacts, ...rest } = arrays;
   const loops = Array.from({ length: loopStarts.length - 1 }, (_, i): HoleLoop => ({
     vertices: loopVertices.slice(loopStarts[i], loopStarts[i + 1]),
     ...readLoopFacts(loopFacts, kLoopFactsLength * i),
@@ -48,7 +49,7 @@ export function reportOf({ loopStarts, loopVertices, loopFacts, groupStarts, gro
       isOpenRim: isOpenRim === 1,
     };
   });
-  return { loops, groups, defects: readDefects(rest.defects, rest.defectPlaces) };
+  return { loops, groups, defects: readDefects(rest.defects, rest.defectPlaces), ...(vertexMap && { vertexMap }) };
 }
 
 function readDefects(counts: Uint32Array, places: Uint32Array): MeshDefect[] {
@@ -73,7 +74,7 @@ export interface FillPlan {
 }
 
 /** @throws SoapfilmError `bad-option` for numbers of loops or groups beyond those that there are */
-export function planOf(report: HoleReport, options: FillOptions): FillPlan {
+export function planOf(report: HoleReport, options: FillOptions, single: boolean): FillPlan {
   const { groups: given, holes: named = 'all', perHole = {} } = options;
   if (given) {
     const all = given.flat();
@@ -91,7 +92,7 @@ export function planOf(report: HoleReport, options: FillOptions): FillPlan {
   });
   const starts = new Uint32Array(todo.length + 1);
   todo.forEach((g, i) => (starts[i + 1] = starts[i] + groups[g].loops.length));
-  const settings = todo.map((g) => packPatchSettings(patchSettings({ ...options, ...perHole[g] })));
+  const settings = todo.map((g) => packPatchSettings(patchSettings({ ...options, ...perHole[g] }, single)));
   const size = settings[0]?.length ?? 0;
   const packed = new Float64Array(size * todo.length);
   settings.forEach((each, i) => {
@@ -144,13 +145,23 @@ export function filledOf(mesh: FlatMesh, plan: FillPlan, arrays: FillArrays, { o
       reportError(error);
     }
   }
+  const { vertexMap } = plan.report;
+  const oldVertices = mesh.positions.length / 3;
+  const added = arrays.positions.length / 3;
+  let attributes = mesh.attributes;
+  if (attributes && vertexMap) attributes = weldedAttributes(attributes, vertexMap, oldVertices);
+  if (attributes) {
+    attributes = carriedOn(attributes, oldVertices, added, arrays.faces);
+    if (output === 'patches') attributes = tailsOf(attributes, oldVertices);
+  }
   return {
-    mesh: { positions, faces },
-    oldVertices: mesh.positions.length / 3,
+    mesh: { positions, faces, ...(attributes && { attributes }) },
+    oldVertices,
     oldFaces: mesh.faces.length / 3,
     closed: holes.every(({ status }) => status === 'filled') && countLoops(plan.groups) === plan.report.loops.length,
     holes,
     defects: plan.report.defects,
+    ...(vertexMap && { vertexMap }),
   };
 }
 
@@ -203,7 +214,12 @@ function whyNot(
 
 const kFairings = { 0: 'none', 1: 'bending', 2: 'curvature', auto: 'auto' } as const;
 
-function patchSettings({ weights, candidates = 'auto', fairness = 'auto', density, maxNewVertices }: HoleFillOptions) {
+/** From which angle in degrees on edges are creases. */
+const kCrease = 40;
+
+function patchSettings(options: HoleFillOptions, single: boolean) {
+  const { weights, candidates = 'auto', fairness = 'auto', density, maxNewVertices, creases = true } = options;
+  const degrees = creases === true ? kCrease : Number(creases);
   // NaN: the core sets the default, which depends on the size of the hole.
   const { area = 0, perimeter = 0, dihedral = 0 } = weights ?? { area: NaN, dihedral: 1 };
   return {
@@ -214,5 +230,7 @@ function patchSettings({ weights, candidates = 'auto', fairness = 'auto', densit
     fairing: kFairingChoices.indexOf(kFairings[fairness]),
     density: density ?? Math.SQRT2,
     maxNewVertices: maxNewVertices ?? Infinity,
+    crease: (degrees * Math.PI) / 180,
+    inFloats: Number(single),
   };
 }

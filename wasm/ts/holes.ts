@@ -1,7 +1,7 @@
 // findHoles, fillHoles: check their arguments, and compute.
 import { optionsOf } from './check.js';
 import { computeHoles, computePatches } from './compute_holes.js';
-import { fillOptionsOf, flattenMesh } from './hole_input.js';
+import { fillOptionsOf, flattenMesh, holeOptionsOf } from './hole_input.js';
 import { filledOf, holeListener, planOf, reportOf } from './hole_results.js';
 import { kFillOptions, kHoleOptions, limitsOf } from './options.js';
 import type { FillOptions, FillResult, HoleOptions, HoleReport, MeshInput } from './types.js';
@@ -15,7 +15,7 @@ import type { FillOptions, FillResult, HoleOptions, HoleReport, MeshInput } from
  *   `bad-option`; `too-large`, `out-of-memory`, `time-limit`; `crashed`
  */
 export function findHoles(mesh: MeshInput, options: HoleOptions = {}): HoleReport {
-  return reportOf(computeHoles(flattenMesh(mesh, false), limitsOf(optionsOf(options, kHoleOptions))).arrays);
+  return reportOf(computeHoles(flattenMesh(mesh, false), holeOptionsOf(optionsOf(options, kHoleOptions))));
 }
 
 /**
@@ -28,9 +28,9 @@ export function findHoles(mesh: MeshInput, options: HoleOptions = {}): HoleRepor
 export function fillHoles(mesh: MeshInput, options: FillOptions = {}): FillResult {
   const flat = flattenMesh(mesh, false);
   const given = fillOptionsOf(optionsOf(options, kFillOptions));
-  const { arrays, seconds } = computeHoles(flat, given);
-  const plan = planOf(reportOf(arrays), given);
+  const found = computeHoles(flat, given);
+  const plan = planOf(reportOf(found), given, flat.single);
   const onProgress = holeListener(plan, given.onProgress);
-  const filled = computePatches(flat, { ...limitsOf(given), work: plan.work, spentSeconds: seconds, onProgress });
-  return filledOf(flat, plan, filled.arrays, given);
+  const filled = computePatches(found.mesh, { ...limitsOf(given), work: plan.work, spentSeconds: found.seconds, onProgress });
+  return filledOf(found.mesh, plan, filled.arrays, given);
 }

@@ -9,6 +9,7 @@ import type {
   Part,
   PolygonOptions,
   PolygonsOptions,
+  SmoothOptions,
   SpanOptions,
   Weights,
 } from './types.js';
@@ -54,12 +55,15 @@ export const kHoleFillOptions: Names<HoleFillOptions> = {
   fairness: true,
   density: true,
   maxNewVertices: true,
+  creases: true,
 };
 
-export const kHoleOptions: Names<HoleOptions> = kLimits;
+export const kHoleOptions: Names<HoleOptions> = { ...kLimits, weld: true };
+
+export const kSmoothOptions: Names<SmoothOptions> = { ...kLimits, kind: true, density: true, maxNewVertices: true };
 
 export const kFillOptions: Names<FillOptions> = {
-  ...kLimits,
+  ...kHoleOptions,
   ...kHoleFillOptions,
   holes: true,
   groups: true,

@@ -4,6 +4,7 @@ import type { Modules } from './compile.js';
 import type { PolygonEditor } from './compute_edits.js';
 import type { FlatPolygons } from './flat_polygons.js';
 import type { computeHoles, computePatches } from './compute_holes.js';
+import type { computeSmooth } from './compute_smooth.js';
 import type { computeSpan } from './compute_span.js';
 import type { PolygonsOptions, PolygonTriangulation, PolygonsTriangulation } from './types.js';
 
@@ -17,6 +18,7 @@ export interface Calls {
   readonly triangulatePolygons: (polygons: FlatPolygons, options: PolygonsOptions) => PolygonsTriangulation;
   readonly findHoles: typeof computeHoles;
   readonly fillHoles: typeof computePatches;
+  readonly smoothSurface: typeof computeSmooth;
 }
 
 /**

@@ -389,10 +389,19 @@ export interface MeshLike {
   readonly positions: Float64Array | Float32Array;
   /** `[3m]` three vertices a face. `triangles` is taken for it too. */
   readonly faces: Uint32Array;
+  /** Of the vertices, by name: colours, texture coordinates. Patches carry them on. */
+  readonly attributes?: Readonly<Record<string, MeshAttribute>>;
+}
+
+/** `size` numbers for each vertex. */
+export interface MeshAttribute {
+  /** `[size n]`. */
+  readonly data: Float32Array;
+  readonly size: number;
 }
 
 /** `MeshLike`, or the same with `triangles` for `faces`. */
-export type MeshInput = MeshLike | { readonly positions: Float64Array | Float32Array; readonly triangles: Uint32Array };
+export type MeshInput = MeshLike | (Omit<MeshLike, 'faces'> & { readonly triangles: Uint32Array });
 
 export type DefectKind =
   | 'non-manifold-edge'
@@ -444,9 +453,13 @@ export interface HoleReport {
   /** Every loop is in one of them. */
   readonly groups: readonly HoleGroup[];
   readonly defects: readonly MeshDefect[];
+  /** With `weld`: `[n]` the number of each vertex in the welded mesh, whose numbers the rest has. */
+  readonly vertexMap?: Uint32Array;
 }
 
 export interface HoleOptions {
+  /** Makes vertices one that are within this distance first; 0: at the same place. For meshes whose faces share none, as in STL files. */
+  readonly weld?: number;
   /** Most memory to use. Default 3 GiB. */
   readonly maxMemoryBytes?: number;
   /** Ends the work with `time-limit` after so many seconds. */
@@ -465,6 +478,8 @@ export interface HoleFillOptions {
   readonly density?: number;
   /** Most new vertices in one hole. */
   readonly maxNewVertices?: number;
+  /** Whether creases that end at the rim go on through the hole, or from which angle in degrees on. Default `true`: 40. */
+  readonly creases?: boolean | number;
 }
 
 export interface FillOptions extends HoleFillOptions, HoleOptions {
@@ -521,9 +536,11 @@ export interface FilledHole {
 
 export interface FillResult {
   /** The mesh with its holes filled: old vertices and faces first, exactly as given. With `output: 'patches'` only the new ones; faces still name vertices of the whole. */
-  readonly mesh: { readonly positions: Float64Array | Float32Array; readonly faces: Uint32Array };
+  readonly mesh: MeshLike;
   readonly oldVertices: number;
   readonly oldFaces: number;
+  /** With `weld`: `[n]` the number of each vertex in the welded mesh, which then is the old part. */
+  readonly vertexMap?: Uint32Array;
   /** Whether no hole was left, open rims neither. */
   readonly closed: boolean;
   /** By groups. */
@@ -531,10 +548,37 @@ export interface FillResult {
   readonly defects: readonly MeshDefect[];
 }
 
+export interface SmoothOptions extends Omit<HoleOptions, 'weld'> {
+  /**
+   * `'soap-film'` (default): the surface of least area on its boundary, as near as its vertices allow; `'thin-plate'`:
+   * it bends least; `'curvature'`: its curvature varies least.
+   */
+  readonly kind?: 'soap-film' | 'thin-plate' | 'curvature';
+  /** How much denser than its boundary the surface is (Liepa's factor). Default √2; 0: it keeps its vertices. */
+  readonly density?: number;
+  /** Most new vertices. */
+  readonly maxNewVertices?: number;
+}
+
+export interface SmoothSurface {
+  /** `[3n]`: the vertices of the boundary, exactly as given, then those inside. */
+  readonly positions: Float64Array;
+  /** `[3m]`, wound as given. */
+  readonly triangles: Uint32Array;
+  /** `[b]` the numbers that the first b vertices had in the input. */
+  readonly boundary: Uint32Array;
+  /** Vertices where the film has shrunk to a thread: there is none, as between rings that are too far apart. */
+  readonly collapsed: Uint32Array;
+  readonly area: number;
+  /** For soap films: whether a further step would move nothing. */
+  readonly isMinimal: boolean;
+}
+
 /**
  * A part of the core that can be loaded by itself. `'loops'` is `loops.wasm`, for `spanLoops`. `'polygons'`
  * is `polygons.wasm`, for `triangulatePolygon`, `triangulatePolygons`, `triangulateGeoJSON` and
- * `PolygonSession`. `'meshes'` is `meshes.wasm`, for `findHoles` and `fillHoles`.
+ * `PolygonSession`. `'meshes'` is `meshes.wasm`, for `findHoles`, `fillHoles` and
+ * `smoothSurface`.
  */
 export type Part = 'loops' | 'polygons' | 'meshes';
 

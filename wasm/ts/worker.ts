@@ -31,6 +31,8 @@ import type {
   PolygonState,
   PolygonsTriangulation,
   PolygonTriangulation,
+  SmoothOptions,
+  SmoothSurface,
   Span,
   SpanOptions,
 } from './types.js';
@@ -88,6 +90,7 @@ export interface Film {
   findHoles(mesh: MeshInput, options?: HoleOptions & CallOptions): Promise<HoleReport>;
   /** `onProgress` is called in the caller's thread. */
   fillHoles(mesh: MeshInput, options?: FillOptions & CallOptions): Promise<FillResult>;
+  smoothSurface(surface: MeshInput, options?: SmoothOptions & CallOptions): Promise<SmoothSurface>;
   /** Ends all threads. Calls under way and later calls fail with `disposed`, and so do those of sessions. */
   dispose(): void;
   [Symbol.dispose](): void;
@@ -146,7 +149,7 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
     : missing('polygons', 'triangulatePolygon', 'triangulatePolygons', 'triangulateGeoJSON', 'createPolygonSession');
   const meshes = modules.meshes
     ? (await import('./worker_meshes.js')).meshCalls(pool)
-    : missing('meshes', 'findHoles', 'fillHoles');
+    : missing('meshes', 'findHoles', 'fillHoles', 'smoothSurface');
   return {
     async spanLoops(loops, options = {}) {
       const input = flattenLoops(loops, true);

@@ -183,7 +183,8 @@ TEST_CASE("groupRims: sheets and tubes are open at their ends, their holes are h
 }
 
 TEST_CASE(
-    "groupRims: what closes to a body is a hole, however large; what closes to a sheet is open") {
+    "groupRims: what closes to a body is a hole, however large, and what closes to a sheet is "
+    "open") {
   for (const double z : {0.0, -0.2, -0.4}) {
     CHECK(told(sphereBelow(z)) == "alone 1");
     CHECK(told(sphereBelow(z, 5)) == "alone 1");

@@ -2,6 +2,7 @@
 #include "abi/host_work.h"
 #include "abi/result.h"
 #include "mesh/fill.h"
+#include "mesh/weld.h"
 
 namespace {
 
@@ -11,7 +12,18 @@ SF_TIE(isTied, sf::Fairing, SF_FAIRING_CHOICES)
 SF_TIE(isTied, sf::FillStatus, SF_FILL_STATUS_CHOICES)
 SF_TIE(isTied, sf::FillReason, SF_FILL_REASON_CHOICES)
 
-/// What both calls begin with.
+/// The mesh, if it is one.
+sf::Outcome view(const double* positions, uint32_t vertexCount, const uint32_t* faces,
+                 uint32_t faceCount, sf::MeshView& mesh) {
+  if (faceCount >= 1u << 30 || vertexCount >= 1u << 30) return {sf::Status::TooLarge};
+  mesh = {{positions, 3 * size_t(vertexCount)}, {faces, 3 * size_t(faceCount)}};
+  const sf::MeshFault fault = sf::checkMesh(mesh);
+  if (fault.vertex != sf::kNone) return {sf::Status::NotFinite, sf::kNone, fault.vertex};
+  if (fault.face != sf::kNone) return {sf::Status::BadMesh, sf::kNone, fault.face};
+  return {};
+}
+
+/// What finding and filling begin with.
 struct Found {
   sf::MeshView mesh;
   sf::Adjacency adjacency;
@@ -20,11 +32,8 @@ struct Found {
 
 sf::Outcome find(const double* positions, uint32_t vertexCount, const uint32_t* faces,
                  uint32_t faceCount, sf::Work& work, sf::Charge& charge, Found& found) {
-  if (faceCount >= 1u << 30 || vertexCount >= 1u << 30) return {sf::Status::TooLarge};
-  found.mesh = {{positions, 3 * size_t(vertexCount)}, {faces, 3 * size_t(faceCount)}};
-  const sf::MeshFault fault = sf::checkMesh(found.mesh);
-  if (fault.vertex != sf::kNone) return {sf::Status::NotFinite, sf::kNone, fault.vertex};
-  if (fault.face != sf::kNone) return {sf::Status::BadMesh, sf::kNone, fault.face};
+  const sf::Outcome outcome = view(positions, vertexCount, faces, faceCount, found.mesh);
+  if (!outcome.ok()) return outcome;
   if (!sf::buildAdjacency(found.mesh, work, charge, found.adjacency) ||
       !sf::findRims(found.mesh, found.adjacency, work, charge, found.rims))
     return {work.status()};
@@ -39,12 +48,13 @@ SfResult* pack(Found&& found, sf::Grouping&& grouping) {
   }
   std::vector<SfGroupFacts> groups;
   for (uint32_t g = 0; g < grouping.count(); ++g)
-    groups.push_back({double(grouping.kinds[g]), grouping.scores[g], double(grouping.isOpenRim[g])});
+    groups.push_back(
+        {double(grouping.kinds[g]), grouping.scores[g], double(grouping.isOpenRim[g])});
   std::vector<SfDefectCounts> defects;
   std::vector<uint32_t> places;
   for (const sf::Defect& defect : found.adjacency.defects) {
-    defects.push_back({uint32_t(defect.kind), uint32_t(defect.faces.size()), uint32_t(defect.edges.size()),
-                       uint32_t(defect.vertices.size())});
+    defects.push_back({uint32_t(defect.kind), uint32_t(defect.faces.size()),
+                       uint32_t(defect.edges.size()), uint32_t(defect.vertices.size())});
     for (const auto* list : {&defect.faces, &defect.edges, &defect.vertices})
       places.insert(places.end(), list->begin(), list->end());
   }
@@ -62,9 +72,10 @@ SfResult* pack(Found&& found, sf::Grouping&& grouping) {
 
 bool isValid(const SfPatchSettings& s) {
   const int kGiven = int(sf::Space::Given);
-  return !(s.areaWeight < 0) && s.perimeterWeight >= 0 && s.dihedralWeight >= 0 && sf::isChoice(s.space, kGiven) &&
-         sf::isChoice(s.fairing, SF_COUNT(SF_FAIRING_CHOICES)) && s.density >= 0 && s.density < 1e6 &&
-         s.maxNewVertices >= 0;
+  return !(s.areaWeight < 0) && s.perimeterWeight >= 0 && s.dihedralWeight >= 0 &&
+         sf::isChoice(s.space, kGiven) && sf::isChoice(s.fairing, SF_COUNT(SF_FAIRING_CHOICES)) &&
+         s.density >= 0 && s.density < 1e6 && s.maxNewVertices >= 0 && s.crease >= 0 &&
+         s.crease < 4 && sf::isChoice(s.inFloats, 2);
 }
 
 sf::FillOptions optionsOf(const SfPatchSettings& s) {
@@ -75,6 +86,8 @@ sf::FillOptions optionsOf(const SfPatchSettings& s) {
   options.space = sf::Space(int(s.space));
   options.fairing = sf::Fairing(int(s.fairing));
   options.density = s.density;
+  options.crease = s.crease;
+  options.inFloats = s.inFloats == 1;
   const double most = 4294967295.0;
   options.maxNewVertices = s.maxNewVertices < most ? uint32_t(s.maxNewVertices) : sf::kNone;
   return options;
@@ -112,8 +125,9 @@ SfFilledFacts factsOf(const sf::FilledHole& hole) {
 
 }  // namespace
 
-extern "C" SfStatus sf_find_holes(const double* positions, uint32_t vertexCount, const uint32_t* faces,
-                                  uint32_t faceCount, double maxBytes, SfPlace* where, SfResult** result) {
+extern "C" SfStatus sf_find_holes(const double* positions, uint32_t vertexCount,
+                                  const uint32_t* faces, uint32_t faceCount, double maxBytes,
+                                  SfPlace* where, SfResult** result) {
   *result = nullptr;
   if (!(maxBytes >= 0)) return sf::endWith({sf::Status::BadOption}, where);
   sf::Work work = sf::hostWork(maxBytes);
@@ -121,16 +135,18 @@ extern "C" SfStatus sf_find_holes(const double* positions, uint32_t vertexCount,
   Found found;
   sf::Outcome outcome = find(positions, vertexCount, faces, faceCount, work, charge, found);
   sf::Grouping grouping;
-  if (outcome.ok() && !sf::groupRims(found.mesh, found.adjacency, found.rims, work, charge, grouping))
+  if (outcome.ok() &&
+      !sf::groupRims(found.mesh, found.adjacency, found.rims, work, charge, grouping))
     outcome = {work.status()};
   if (outcome.ok()) *result = pack(std::move(found), std::move(grouping));
   return sf::endWith(outcome, where);
 }
 
-extern "C" SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount, const uint32_t* faces,
-                                  uint32_t faceCount, const uint32_t* groupStarts, uint32_t groupCount,
-                                  const uint32_t* groupLoops, const SfPatchSettings* settings, double maxBytes,
-                                  SfPlace* where, SfResult** result) {
+extern "C" SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount,
+                                  const uint32_t* faces, uint32_t faceCount,
+                                  const uint32_t* groupStarts, uint32_t groupCount,
+                                  const uint32_t* groupLoops, const SfPatchSettings* settings,
+                                  double maxBytes, SfPlace* where, SfResult** result) {
   *result = nullptr;
   bool isAllowed = maxBytes >= 0;
   for (uint32_t g = 0; isAllowed && g < groupCount; ++g) isAllowed = isValid(settings[g]);
@@ -149,17 +165,44 @@ extern "C" SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount,
     work.beginStage(double(g) / groupCount, double(g + 1) / groupCount);
     sf::FilledHole hole;
     const uint32_t first = groupStarts[g];
-    outcome.status = filler.fill({groupLoops + first, size_t(groupStarts[g + 1] - first)}, optionsOf(settings[g]), hole);
+    outcome.status = filler.fill({groupLoops + first, size_t(groupStarts[g + 1] - first)},
+                                 optionsOf(settings[g]), hole);
     facts.push_back(factsOf(hole));
-    for (const sf::FacePair pair : hole.intersections) pairs.insert(pairs.end(), {pair.first, pair.second});
+    for (const sf::FacePair pair : hole.intersections)
+      pairs.insert(pairs.end(), {pair.first, pair.second});
   }
   if (outcome.ok()) {
     *result = new SfResult(SfFillArrayCount);
-    const auto copy = [](auto view) { return std::vector<std::remove_const_t<std::remove_pointer_t<decltype(view.data())>>>(view.begin(), view.end()); };
+    const auto copy = [](auto view) {
+      return std::vector<std::remove_const_t<std::remove_pointer_t<decltype(view.data())>>>(
+          view.begin(), view.end());
+    };
     (*result)->put<SfFill_positions>(copy(filler.newPositions()));
     (*result)->put<SfFill_faces>(copy(filler.newFaces()));
     (*result)->put<SfFill_holes>(std::move(facts));
     (*result)->put<SfFill_pairs>(std::move(pairs));
+  }
+  return sf::endWith(outcome, where);
+}
+
+extern "C" SfStatus sf_weld_mesh(const double* positions, uint32_t vertexCount,
+                                 const uint32_t* faces, uint32_t faceCount, double radius,
+                                 double maxBytes, SfPlace* where, SfResult** result) {
+  *result = nullptr;
+  if (!(maxBytes >= 0) || !(radius >= 0 && std::isfinite(radius)))
+    return sf::endWith({sf::Status::BadOption}, where);
+  sf::Work work = sf::hostWork(maxBytes);
+  sf::Charge charge(work);
+  sf::MeshView mesh;
+  sf::Outcome outcome = view(positions, vertexCount, faces, faceCount, mesh);
+  sf::WeldedMesh welded;
+  if (outcome.ok() && !sf::weldVertices(mesh, radius, work, charge, welded))
+    outcome = {work.status()};
+  if (outcome.ok()) {
+    *result = new SfResult(SfWeldArrayCount);
+    (*result)->put<SfWeld_positions>(std::move(welded.positions));
+    (*result)->put<SfWeld_faces>(std::move(welded.faces));
+    (*result)->put<SfWeld_vertexMap>(std::move(welded.vertexMap));
   }
   return sf::endWith(outcome, where);
 }

@@ -22,7 +22,7 @@ ArrayView<const uint32_t> surroundings(const LocalSurface& surface) {
 
 class Fairing {
  public:
-  Fairing(const LocalSurface& surface, Work& work) : surface_(surface), work_(work) {}
+  Fairing(const LocalSurface& surface, Work& work) : surface_(surface), work_(work) { findNear(); }
 
   /// Marks the vertices of the surroundings where faces meet at more than an angle.
   bool findCreases(ArrayView<const Vec3> at, double angle);
@@ -30,9 +30,11 @@ class Fairing {
   /// Solves `rounds` times, of the order asked for or the next lower one that works. Returns that order.
   uint32_t solve(const FairOptions& options, std::vector<Vec3>& at);
   /// Steps to the least variation of curvature, as long as they lead there.
-  void leastVariation(uint32_t steps, std::vector<Vec3>& at);
+  /// Returns whether any did.
+  bool leastVariation(uint32_t steps, std::vector<Vec3>& at);
 
  private:
+  void findNear();
   bool measure(ArrayView<const Vec3> at);
   bool isTame(ArrayView<const Vec3> at) const {
     for (const Vec3& p : at)
@@ -43,10 +45,29 @@ class Fairing {
 
   const LocalSurface& surface_;
   Work& work_;
+  std::vector<uint32_t> near_;  // [3m] triangles that the system knows of
   std::vector<double> flat_;
   std::vector<uint8_t> creased_;  // [n] or empty
   Laplacian laplacian_;
 };
+
+/// Rows of vertices at most two edges away from a free one are all that k = 3 takes.
+void Fairing::findNear() {
+  const std::vector<uint32_t>& t = surface_.triangles;
+  std::vector<uint8_t> isNear(surface_.positions.size() / 3, 0);
+  for (size_t v = surface_.fixedVertices; v < isNear.size(); ++v) isNear[v] = 1;
+  std::vector<uint32_t> ring;
+  for (int r = 0; r < 2; ++r) {
+    ring.clear();
+    for (size_t h = 0; h < t.size(); h += 3)
+      if (isNear[t[h]] || isNear[t[h + 1]] || isNear[t[h + 2]])
+        ring.insert(ring.end(), {t[h], t[h + 1], t[h + 2]});
+    for (const uint32_t v : ring) isNear[v] = 1;
+  }
+  for (size_t h = 0; h < t.size(); h += 3)
+    if (isNear[t[h]] || isNear[t[h + 1]] || isNear[t[h + 2]])
+      near_.insert(near_.end(), {t[h], t[h + 1], t[h + 2]});
+}
 
 bool Fairing::findCreases(ArrayView<const Vec3> at, double angle) {
   const ArrayView<const uint32_t> around = surroundings(surface_);
@@ -68,7 +89,7 @@ bool Fairing::findCreases(ArrayView<const Vec3> at, double angle) {
 bool Fairing::measure(ArrayView<const Vec3> at) {
   flat_.clear();
   for (const Vec3& p : at) flat_.insert(flat_.end(), {p.x, p.y, p.z});
-  return buildLaplacian(flat_, surface_.triangles, creased_, work_, laplacian_);
+  return buildLaplacian(flat_, near_, creased_, work_, laplacian_);
 }
 
 uint32_t Fairing::solve(const FairOptions& options, std::vector<Vec3>& at) {
@@ -90,25 +111,28 @@ uint32_t Fairing::solve(const FairOptions& options, std::vector<Vec3>& at) {
   return order;
 }
 
-void Fairing::leastVariation(uint32_t steps, std::vector<Vec3>& at) {
+bool Fairing::leastVariation(uint32_t steps, std::vector<Vec3>& at) {
   std::vector<Vec3> best = at;
   double least = 0;
+  bool isBetter = false;
   for (uint32_t i = 0, halvings = 0; i <= steps; ++i) {
-    if (!measure(at)) return;
+    if (!measure(at)) return false;
     FairSystem system(laplacian_, surface_.fixedVertices, work_);
-    const double now = system.variation(at, surface_.triangles);
+    const double now = system.variation(at, near_);
     if (i > 0 && !(now < least && isTame(at))) {
       // Too far: half of the step, or none.
       if (++halvings > 2) break;
       for (size_t v = surface_.fixedVertices; v < at.size(); ++v) at[v] = 0.5 * (at[v] + best[v]);
       continue;
     }
+    isBetter = isBetter || i > 0;
     least = now, best = at;
     double most;
     if (i == steps || !system.stepToLeastVariation(at, most)) break;
     if (most < kLastStep * std::sqrt(1.0 / double(at.size()))) steps = i + 1;
   }
   at = best;
+  return isBetter;
 }
 
 }  // namespace
@@ -119,13 +143,19 @@ Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairn
   const UnitBox box(surface.positions);
   if (n <= surface.fixedVertices || box.isPoint()) return work.status();
   Charge charge(work);
-  if (!charge.add(n * 300)) return work.status();
+  if (!charge.add(n * 300 + surface.triangles.size() * 8)) return work.status();
   std::vector<Vec3> at(n);
   for (size_t v = 0; v < n; ++v) at[v] = box.in(&surface.positions[3 * v]);
   Fairing fairing(surface, work);
   if (options.crease > 0 && !fairing.findCreases(at, options.crease)) return work.status();
-  const uint32_t order = fairing.solve(options, at);
-  if (order == 3 && options.curvatureSteps > 0) fairing.leastVariation(options.curvatureSteps, at);
+  uint32_t order = fairing.solve(options, at);
+  if (order == 3 && options.curvatureSteps > 0 &&
+      !fairing.leastVariation(options.curvatureSteps, at) && options.rounds == 0) {
+    // Something has to smooth it.
+    FairOptions once = options;
+    once.rounds = 1;
+    order = fairing.solve(once, at);
+  }
   if (!work.going() || order == 0) return work.status();
   result.order = order;
   for (size_t v = surface.fixedVertices; v < n; ++v) {

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/fair.h"
-#include "mesh/refine.h"
+#include "mesh/smooth_patch.h"
 
 namespace sf {
 namespace {
@@ -13,17 +12,21 @@ namespace {
 constexpr uint32_t kRings = 5;
 /// Rims up to this long are spanned among all triangles: beyond that Delaunay triangles do.
 constexpr uint32_t kMostForAll = 300;
-/// How often the way of fairing is halved before all of it is given up.
-constexpr int kHalvings = 4;
+/// Angles along the rim below this are none.
+constexpr double kExact = 1e-3;
 /// More pairs of intersecting faces are not listed.
 constexpr size_t kMostPairs = 10000;
 
 FillReason reasonOf(Status status) {
   switch (status) {
-    case Status::RepeatedVertex: return FillReason::RepeatedVertex;
-    case Status::LoopsIntersect: return FillReason::RimsIntersect;
-    case Status::TooLarge: return FillReason::TooLarge;
-    default: return FillReason::NoSurface;
+    case Status::RepeatedVertex:
+      return FillReason::RepeatedVertex;
+    case Status::LoopsIntersect:
+      return FillReason::RimsIntersect;
+    case Status::TooLarge:
+      return FillReason::TooLarge;
+    default:
+      return FillReason::NoSurface;
   }
 }
 
@@ -36,20 +39,30 @@ Vec3 normalOf(ArrayView<const double> positions, uint32_t a, uint32_t b, uint32_
 
 }  // namespace
 
-struct HoleFiller::Hole {
-  std::vector<uint32_t> edges;     // of the rims, in their order: numbers in Rims
-  std::vector<uint32_t> vertices;  // input numbers of the fixed vertices: those of the rims first
-  LocalSurface surface;            // fixed vertices as in `vertices`, rims first
-  std::vector<double> spanned;     // positions before fairing
-  uint32_t rimVertices = 0;
+/// A corner of the loops around a patch, and the edge from it to the next one.
+struct Corner {
+  uint32_t vertex;        // of the filled mesh
+  uint32_t edge = kNone;  // the rim edge that begins there, or kNone
 };
 
-HoleFiller::HoleFiller(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work)
+struct HoleFiller::Hole {
+  std::vector<Corner> corners;     // loop after loop, as faces that fill them run
+  std::vector<uint32_t> starts;    // [k+1] in `corners`
+  double crease = 0;               // of a part: the angle of the creases around it
+  bool isPart = false;             // between creases, which bound what is around it as well
+  std::vector<uint32_t> vertices;  // of the filled mesh: the fixed vertices, corners first
+  LocalSurface surface;            // fixed vertices as in `vertices`
+};
+
+HoleFiller::HoleFiller(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims,
+                       Work& work)
     : mesh_(mesh), adjacency_(adjacency), rims_(rims), work_(work), charge_(work), tree_(work) {}
 
 bool HoleFiller::prepare() {
   const size_t n = mesh_.positions.size() / 3, m = mesh_.faces.size() / 3;
-  if (!reserve(fanStarts_, n + 1, charge_) || !reserve(fans_, 3 * m, charge_) || !reserve(local_, n, charge_)) return false;
+  if (!reserve(fanStarts_, n + 1, charge_) || !reserve(fans_, 3 * m, charge_) ||
+      !reserve(local_, n, charge_))
+    return false;
   fanStarts_.assign(n + 1, 0);
   const auto counts = [&](size_t f) { return adjacency_.corners[3 * f] != kNone; };
   for (size_t f = 0; f < m; ++f)
@@ -62,10 +75,12 @@ bool HoleFiller::prepare() {
     if (counts(f))
       for (int k = 0; k < 3; ++k) fans_[next[mesh_.faces[3 * f + k]]++] = uint32_t(f);
   local_.assign(n, kNone);
-  return work_.tick(uint32_t(std::min<size_t>(20 * (n + m), 1u << 30))) && tree_.build(mesh_, 0, uint32_t(m));
+  return work_.tick(uint32_t(std::min<size_t>(20 * (n + m), 1u << 30))) &&
+         tree_.build(mesh_, 0, uint32_t(m));
 }
 
 bool HoleFiller::isFaceOfMesh(uint32_t a, uint32_t b, uint32_t c) const {
+  if (a >= mesh_.positions.size() / 3) return false;
   for (uint32_t i = fanStarts_[a]; i < fanStarts_[a + 1]; ++i) {
     const uint32_t* f = mesh_.faces.data() + 3 * size_t(fans_[i]);
     const auto has = [&](uint32_t v) { return f[0] == v || f[1] == v || f[2] == v; };
@@ -77,17 +92,14 @@ bool HoleFiller::isFaceOfMesh(uint32_t a, uint32_t b, uint32_t c) const {
 /// Spans the rims. The triangles of the patch are wound as the faces that fill the hole are.
 Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& result) {
   std::vector<Vec3> positions;
-  std::vector<uint32_t> starts{0};
   std::vector<double> normals;
-  for (size_t i = 0; i < hole.edges.size(); ++i) {
-    const uint32_t e = hole.edges[i];
-    positions.push_back(pointAt(mesh_.positions, rims_.vertices[e]));
-    const Vec3 n = rims_.normals[e];
+  for (const Corner& corner : hole.corners) {
+    positions.push_back(point(corner.vertex));
+    const Vec3 n = corner.edge == kNone ? Vec3{0, 0, 0} : rims_.normals[corner.edge];
     const bool isKnown = dot(n, n) > 0;
     for (const double x : {n.x, n.y, n.z}) normals.push_back(isKnown ? x : std::nan(""));
-    const bool endsRim = std::binary_search(rims_.starts.begin(), rims_.starts.end(), e + 1);
-    if (endsRim) starts.push_back(uint32_t(i + 1));
   }
+  const std::vector<uint32_t>& starts = hole.starts;
   const LoopSet loops({positions.data(), positions.size()}, {starts.data(), starts.size()});
   SpanOptions span;
   span.areaWeight = options.areaWeight;
@@ -98,8 +110,10 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
   // Wider spaces only where narrower ones hold nothing, or only a surface with vertices on the rim.
   std::vector<Space> spaces{options.space};
   if (options.space == Space::Auto) {
-    if (loops.loopCount() == 1 && loops.vertexCount() <= kMostForAll) spaces = {Space::All};
-    else spaces = {Space::Delaunay, Space::Near, Space::Auto};
+    if (loops.loopCount() == 1 && loops.vertexCount() <= kMostForAll)
+      spaces = {Space::All};
+    else
+      spaces = {Space::Delaunay, Space::Near, Space::Auto};
   }
   Span found;
   FillReason reason = FillReason::NoSurface;
@@ -127,13 +141,14 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
   const uint32_t second = loops.next(0);
   for (size_t t = 0; t < triangles.size(); t += 3) {
     bool isBackwards = false;
-    for (int k = 0; k < 3; ++k) isBackwards |= triangles[t + k] == second && triangles[t + (k + 1) % 3] == 0;
+    for (int k = 0; k < 3; ++k)
+      isBackwards |= triangles[t + k] == second && triangles[t + (k + 1) % 3] == 0;
     if (!isBackwards) continue;
     for (size_t i = 0; i < triangles.size(); i += 3) std::swap(triangles[i + 1], triangles[i + 2]);
     break;
   }
   for (size_t t = 0; t < triangles.size(); t += 3) {
-    const auto at = [&](size_t k) { return rims_.vertices[hole.edges[triangles[t + k]]]; };
+    const auto at = [&](size_t k) { return hole.corners[triangles[t + k]].vertex; };
     if (isFaceOfMesh(at(0), at(1), at(2))) {
       result.reason = FillReason::DuplicateFace;
       return Status::Ok;
@@ -144,70 +159,118 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
   return Status::Ok;
 }
 
-/// Numbers the vertices of the rims and of some rings around them, and lists the faces between.
-void HoleFiller::surround(Hole& hole) {
+/// The faces in some rings of vertices around the rims; `local_` numbers the vertices.
+void HoleFiller::takeRings(Hole& hole, std::vector<uint32_t>& faces) {
   std::vector<uint32_t>& vertices = hole.vertices;
-  for (const uint32_t e : hole.edges) vertices.push_back(rims_.vertices[e]);
-  hole.rimVertices = uint32_t(vertices.size());
-  // A vertex of two rims, where they touch, has two numbers; the mesh knows the first.
-  for (uint32_t i = hole.rimVertices; i-- > 0;) local_[vertices[i]] = i;
-  std::vector<uint32_t> faces;
-  size_t ringStart = 0;
+  size_t ringStart = 0, seen = 0;
   for (uint32_t ring = 0; ring < kRings; ++ring) {
     const size_t ringEnd = vertices.size();
     for (size_t i = ringStart; i < ringEnd; ++i)
-      for (uint32_t k = fanStarts_[vertices[i]]; k < fanStarts_[vertices[i] + 1]; ++k) faces.push_back(fans_[k]);
-    for (size_t i = 0; i < faces.size(); ++i)
+      for (uint32_t k = fanStarts_[vertices[i]]; k < fanStarts_[vertices[i] + 1]; ++k)
+        faces.push_back(fans_[k]);
+    for (; seen < faces.size(); ++seen)
       for (int k = 0; k < 3; ++k) {
-        const uint32_t v = mesh_.faces[3 * size_t(faces[i]) + k];
+        const uint32_t v = mesh_.faces[3 * size_t(faces[seen]) + k];
         if (local_[v] != kNone) continue;
         local_[v] = uint32_t(vertices.size());
         vertices.push_back(v);
       }
     ringStart = ringEnd;
   }
+}
+
+/// The faces beside the rim and some steps further, not across creases.
+void HoleFiller::takeSide(Hole& hole, std::vector<uint32_t>& faces) {
+  for (const Corner& corner : hole.corners)
+    if (corner.edge != kNone) faces.push_back(rims_.halves[corner.edge] / 3);
+  const Creases creases(mesh_, adjacency_, fanStarts_, fans_, hole.crease);
+  std::vector<uint32_t> known(faces);
+  std::sort(known.begin(), known.end());
+  size_t stepStart = 0;
+  for (uint32_t step = 0; step < 2 * kRings; ++step) {
+    const size_t stepEnd = faces.size();
+    std::vector<uint32_t> next;
+    for (size_t i = stepStart; i < stepEnd; ++i)
+      for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t h = 3 * faces[i] + k, twin = adjacency_.twins[h];
+        if (twin != kNone && !creases.isSharp(h) &&
+            !std::binary_search(known.begin(), known.end(), twin / 3))
+          next.push_back(twin / 3);
+      }
+    std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
+    faces.insert(faces.end(), next.begin(), next.end());
+    known.insert(known.end(), next.begin(), next.end());
+    std::inplace_merge(known.begin(), known.end() - ptrdiff_t(next.size()), known.end());
+    stepStart = stepEnd;
+  }
+  for (const uint32_t f : faces)
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t v = mesh_.faces[3 * size_t(f) + k];
+      if (local_[v] != kNone) continue;
+      local_[v] = uint32_t(hole.vertices.size());
+      hole.vertices.push_back(v);
+    }
+}
+
+Vec3 HoleFiller::point(uint32_t vertex) const {
+  const size_t n = mesh_.positions.size() / 3;
+  return vertex < n ? pointAt(mesh_.positions, vertex)
+                    : pointAt(newPositions_, vertex - uint32_t(n));
+}
+
+/// Numbers the corners and the vertices around them, and lists the faces between.
+void HoleFiller::surround(Hole& hole) {
+  const uint32_t n = uint32_t(mesh_.positions.size() / 3);
+  std::vector<uint32_t>& vertices = hole.vertices;
+  for (const Corner& corner : hole.corners) vertices.push_back(corner.vertex);
+  // A vertex of two rims, where they touch, has two numbers; the mesh knows the first.
+  for (uint32_t i = uint32_t(vertices.size()); i-- > 0;)
+    if (vertices[i] < n) local_[vertices[i]] = i;
+  std::vector<uint32_t> faces;
+  if (hole.isPart)
+    takeSide(hole, faces);
+  else
+    takeRings(hole, faces);
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   LocalSurface& surface = hole.surface;
   for (const uint32_t v : vertices) {
-    const double* p = mesh_.positions.data() + 3 * size_t(v);
-    surface.positions.insert(surface.positions.end(), p, p + 3);
+    const Vec3 p = point(v);
+    surface.positions.insert(surface.positions.end(), {p.x, p.y, p.z});
   }
   for (const uint32_t f : faces) {
     const uint32_t* c = mesh_.faces.data() + 3 * size_t(f);
     const bool isTurned = adjacency_.turned[f] != 0;
-    for (const uint32_t v : {c[0], c[isTurned ? 2 : 1], c[isTurned ? 1 : 2]}) surface.triangles.push_back(local_[v]);
+    for (const uint32_t v : {c[0], c[isTurned ? 2 : 1], c[isTurned ? 1 : 2]})
+      surface.triangles.push_back(local_[v]);
   }
   surface.fixedVertices = uint32_t(vertices.size());
   surface.fixedTriangles = uint32_t(surface.triangles.size() / 3);
-  for (const uint32_t v : vertices) local_[v] = kNone;
-}
-
-/// Whether one rim edge follows another.
-bool HoleFiller::isNext(uint32_t e, uint32_t next) const {
-  if (next == e + 1) return !std::binary_search(rims_.starts.begin(), rims_.starts.end(), next);
-  // The last of a rim is followed by its first.
-  const auto end = std::upper_bound(rims_.starts.begin(), rims_.starts.end(), e);
-  return *end == e + 1 && *(end - 1) == next;
+  for (const uint32_t v : vertices)
+    if (v < n) local_[v] = kNone;
 }
 
 /// The mean angle between the patch and the faces along the rim.
-double HoleFiller::rimAngle(const Hole& hole) const {
+double HoleFiller::rimAngle(const Hole& hole, double* largest) const {
   const LocalSurface& s = hole.surface;
+  // The corner after each.
+  std::vector<uint32_t> next(hole.corners.size());
+  for (size_t l = 0; l + 1 < hole.starts.size(); ++l)
+    for (uint32_t i = hole.starts[l]; i < hole.starts[l + 1]; ++i)
+      next[i] = i + 1 < hole.starts[l + 1] ? i + 1 : hole.starts[l];
   double sum = 0;
   uint32_t count = 0;
   for (size_t t = 3 * size_t(s.fixedTriangles); t < s.triangles.size(); t += 3)
     for (int k = 0; k < 3; ++k) {
       const uint32_t a = s.triangles[t + k], b = s.triangles[t + (k + 1) % 3];
-      if (a >= hole.rimVertices || b >= hole.rimVertices) continue;
-      const uint32_t e = hole.edges[a];
-      // Edges of the rim only: from a vertex to the next one of its rim.
-      const bool isRimEdge = isNext(e, hole.edges[b]);
-      if (!isRimEdge) continue;
-      const Vec3 n = rims_.normals[e];
+      if (a >= hole.corners.size() || next[a] != b || hole.corners[a].edge == kNone) continue;
+      const Vec3 n = rims_.normals[hole.corners[a].edge];
       if (dot(n, n) == 0) continue;
-      sum += angleBetween(n, normalOf(s.positions, s.triangles[t], s.triangles[t + 1], s.triangles[t + 2]));
-      ++count;
+      const double angle = angleBetween(
+          n, normalOf(s.positions, s.triangles[t], s.triangles[t + 1], s.triangles[t + 2]));
+      if (largest) *largest = std::max(*largest, angle);
+      sum += angle, ++count;
     }
   return count ? sum / count : 0;
 }
@@ -217,8 +280,8 @@ bool HoleFiller::findPairs(const Hole& hole, size_t most, std::vector<FacePair>&
   pairs.clear();
   const LocalSurface& s = hole.surface;
   const MeshView patch{s.positions, s.triangles};
-  const uint32_t from = s.fixedTriangles, to = uint32_t(s.triangles.size() / 3);
-  const uint32_t first = uint32_t((mesh_.faces.size() + newFaces_.size()) / 3);
+  const uint32_t from = s.fixedTriangles, to = uint32_t(s.triangles.size() / 3),
+                 first = faceCount();
   std::vector<FacePair> own;
   if (!findIntersections(patch, from, to, mesh_, tree_, most, work_, pairs)) return false;
   if (!findSelfIntersections(patch, from, to, most, work_, own)) return false;
@@ -227,68 +290,139 @@ bool HoleFiller::findPairs(const Hole& hole, size_t most, std::vector<FacePair>&
   return true;
 }
 
-bool HoleFiller::append(const Hole& hole, FilledHole& result) {
+/// Appends pairs among new faces of the filled mesh.
+bool HoleFiller::findOwnPairs(uint32_t from, uint32_t to, std::vector<FacePair>& pairs) {
+  const uint32_t old = uint32_t(mesh_.faces.size() / 3);
+  std::vector<double> positions;
+  std::vector<uint32_t> faces;
+  for (size_t i = 3 * size_t(from - old); i < 3 * size_t(to - old); ++i) {
+    const Vec3 p = point(newFaces_[i]);
+    faces.push_back(uint32_t(positions.size() / 3));
+    positions.insert(positions.end(), {p.x, p.y, p.z});
+  }
+  std::vector<FacePair> own;
+  if (!findSelfIntersections({positions, faces}, 0, to - from, kMostPairs, work_, own))
+    return false;
+  for (const FacePair p : own) pairs.push_back({p.first + from, p.second + from});
+  return true;
+}
+
+bool HoleFiller::append(const Hole& hole) {
   const LocalSurface& s = hole.surface;
-  const uint32_t n = uint32_t(mesh_.positions.size() / 3), fixed = s.fixedVertices;
-  const uint32_t firstNew = n + uint32_t(newPositions_.size() / 3);
-  result.firstFace = uint32_t((mesh_.faces.size() + newFaces_.size()) / 3);
-  const size_t coordinates = s.positions.size() - 3 * size_t(fixed), corners = s.triangles.size() - 3 * size_t(s.fixedTriangles);
+  const uint32_t firstNew = vertexCount(), fixed = s.fixedVertices;
+  const size_t coordinates = s.positions.size() - 3 * size_t(fixed),
+               corners = s.triangles.size() - 3 * size_t(s.fixedTriangles);
   if (!charge_.add(8 * coordinates + 4 * corners)) return false;
-  newPositions_.insert(newPositions_.end(), s.positions.begin() + 3 * size_t(fixed), s.positions.end());
+  newPositions_.insert(newPositions_.end(), s.positions.begin() + 3 * size_t(fixed),
+                       s.positions.end());
   for (size_t i = 3 * size_t(s.fixedTriangles); i < s.triangles.size(); ++i) {
     const uint32_t v = s.triangles[i];
     newFaces_.push_back(v < fixed ? hole.vertices[v] : firstNew + v - fixed);
   }
-  result.endFace = result.firstFace + uint32_t(corners / 3);
   return true;
 }
 
-Status HoleFiller::fill(ArrayView<const uint32_t> rims, const FillOptions& options, FilledHole& result) {
+Status HoleFiller::fill(ArrayView<const uint32_t> rims, const FillOptions& options,
+                        FilledHole& result) {
   result = {};
+  bool isDone = false;
+  if (options.crease > 0 && rims.size() == 1) {
+    const Status status = fillParts(rims[0], options, result, isDone);
+    if (status != Status::Ok || isDone) return status;
+    result = {};
+  }
   Hole hole;
-  for (const uint32_t r : rims)
-    for (uint32_t e = rims_.starts[r]; e < rims_.starts[r + 1]; ++e) hole.edges.push_back(e);
+  hole.starts = {0};
+  for (const uint32_t r : rims) {
+    for (uint32_t e = rims_.starts[r]; e < rims_.starts[r + 1]; ++e)
+      hole.corners.push_back({rims_.vertices[e], e});
+    hole.starts.push_back(uint32_t(hole.corners.size()));
+  }
+  result.firstFace = faceCount();
+  const Status status = fillPart(hole, options, result);
+  result.endFace = faceCount();
+  return status;
+}
+
+/// Fills the parts of a hole between creases that end at its rim. `isDone`: there are such, and all are filled well.
+Status HoleFiller::fillParts(uint32_t rim, const FillOptions& options, FilledHole& result,
+                             bool& isDone) {
+  const Creases creases(mesh_, adjacency_, fanStarts_, fans_, options.crease);
+  const HoleParts parts = partHole(mesh_, rims_, rim, creases);
+  if (parts.parts.empty()) return Status::Ok;
+  const size_t positions = newPositions_.size(), faces = newFaces_.size();
+  const uint32_t firstPoint = vertexCount();
+  result.firstFace = faceCount();
+  for (const Vec3 p : parts.points) newPositions_.insert(newPositions_.end(), {p.x, p.y, p.z});
+  Status status = Status::Ok;
+  bool isGood = true, areOptimal = true;
+  double before = 0, after = 0, cost = 0, bound = 0;
+  for (const auto& part : parts.parts) {
+    Hole hole;
+    hole.isPart = true;
+    hole.crease = options.crease;
+    for (const PartCorner& c : part)
+      hole.corners.push_back({c.vertex != kNone ? c.vertex : firstPoint + c.added, c.edge});
+    hole.starts = {0, uint32_t(hole.corners.size())};
+    FilledHole filled;
+    status = fillPart(hole, options, filled);
+    if (status != Status::Ok || filled.status != FillStatus::Filled) {
+      isGood = false;
+      break;
+    }
+    before += filled.rimAngleBefore / double(parts.parts.size()),
+        after += filled.rimAngleAfter / double(parts.parts.size());
+    cost += filled.cost, bound += filled.lowerBound, areOptimal &= filled.optimal;
+    result.fairnessUsed = std::max(result.fairnessUsed, filled.fairnessUsed);
+    result.movedLess = std::max(result.movedLess, filled.movedLess);
+  }
+  result.endFace = faceCount();
+  // Parts may be clean each by itself and still meet.
+  if (isGood && !findOwnPairs(result.firstFace, result.endFace, result.intersections))
+    status = work_.status();
+  isDone = status == Status::Ok && isGood && result.intersections.empty();
+  if (!isDone) {
+    newPositions_.resize(positions), newFaces_.resize(faces);
+    return status;
+  }
+  result.status = FillStatus::Filled;
+  result.rimAngleBefore = before, result.rimAngleAfter = after;
+  result.cost = cost, result.lowerBound = bound, result.optimal = areOptimal;
+  return Status::Ok;
+}
+
+/// Fills what is within some loops, and appends it.
+Status HoleFiller::fillPart(Hole& hole, const FillOptions& options, FilledHole& result) {
   surround(hole);
   Status status = span(hole, options, result);
   if (status != Status::Ok || result.status == FillStatus::Failed) return status;
-  result.rimAngleBefore = rimAngle(hole);
+  double largest = 0;
+  result.rimAngleBefore = rimAngle(hole, &largest);
 
   LocalSurface& surface = hole.surface;
-  const bool isExact = isFlat(surface);
-  if (options.density > 0 && !isExact) {
+  FairOptions fairing;
+  fairing.order = 0;
+  // What goes on everything around it as it was spanned, nothing should bend.
+  const bool isExact = largest < kExact || isFlat(surface);
+  if (!isExact) {
+    if (options.fairing == Fairing::Auto && !findFairOrder(surface, 0, work_, fairing.order))
+      return work_.status();
+    if (options.fairing == Fairing::Bending) fairing.order = 2;
+    if (options.fairing == Fairing::Curvature) fairing.order = 3;
     RefineOptions refining;
     refining.density = options.density;
     refining.maxNewVertices = options.maxNewVertices;
-    status = refine(surface, refining, work_);
+    Smoothed smoothed;
+    status = smoothPatchApart(surface, refining, fairing, mesh_, tree_, options.inFloats, work_,
+                              smoothed);
     if (status != Status::Ok) return status;
+    result.fairnessUsed = smoothed.fairness.order;
+    result.movedLess = 1 - smoothed.share;
   }
-  hole.spanned = surface.positions;
-  if (options.fairing != Fairing::None && !isExact && surface.positions.size() > 3 * size_t(surface.fixedVertices)) {
-    FairOptions fairing;
-    double rough = 0;
-    if (options.fairing == Fairing::Auto && !roughness(surface, work_, rough)) return work_.status();
-    const bool isRough = rough > kRough;
-    fairing.order = options.fairing == Fairing::Bending || isRough ? 2 : 3;
-    Fairness fairness;
-    status = fair(surface, fairing, work_, fairness);
-    if (status != Status::Ok) return status;
-    result.fairnessUsed = fairness.order;
-  }
-
-  // As much of the fairing as goes without intersections.
-  const std::vector<double> faired = surface.positions;
-  double share = 1;
-  for (int halving = 0;; ++halving) {
-    if (!findPairs(hole, kMostPairs, result.intersections)) return work_.status();
-    if (result.intersections.empty() || result.fairnessUsed == 0 || share == 0) break;
-    share = halving < kHalvings ? share / 2 : 0;
-    for (size_t i = 3 * size_t(surface.fixedVertices); i < faired.size(); ++i)
-      surface.positions[i] = hole.spanned[i] + share * (faired[i] - hole.spanned[i]);
-  }
-  result.movedLess = 1 - share;
+  if (!findPairs(hole, kMostPairs, result.intersections)) return work_.status();
   if (!result.intersections.empty()) result.status = FillStatus::SelfIntersecting;
-  result.rimAngleAfter = rimAngle(hole);
-  return append(hole, result) ? Status::Ok : work_.status();
+  result.rimAngleAfter = rimAngle(hole, nullptr);
+  return append(hole) ? Status::Ok : work_.status();
 }
 
 }  // namespace sf

@@ -2,8 +2,8 @@
 //
 // Source: Zou, Ju, Carr 2013, sec. 5: every hole with its islands is spanned by Delaunay triangles, with the angles to
 // the faces along the rim counted. Liepa 2003: refined and faired afterwards.
-// Differs: one rim is spanned among all triangles where that is quick. What intersects after fairing goes back, half
-// of the way at a time, to the surface that was spanned.
+// Differs: one rim is spanned among all triangles where that is quick. What would intersect after fairing goes only so
+// far that it does not.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -11,6 +11,7 @@
 #include "base/work.h"
 #include "loops/span.h"
 #include "mesh/bvh.h"
+#include "mesh/crease.h"
 #include "mesh/group.h"
 #include "mesh/intersect.h"
 
@@ -24,6 +25,8 @@ struct FillOptions {
   Fairing fairing = Fairing::Auto;
   double density = 1.4142135623730951;  // as in RefineOptions
   uint32_t maxNewVertices = 0xFFFFFFFFu;
+  bool inFloats = false;  // whether coordinates of new vertices are rounded to single precision
+  double crease = 0.698;  // edges between faces that differ by more, in radians, go on; 0: none do
 };
 
 enum class FillStatus : uint8_t { Filled, SelfIntersecting, Failed };
@@ -68,13 +71,22 @@ class HoleFiller {
 
  private:
   struct Hole;
+  Status fillPart(Hole& hole, const FillOptions& options, FilledHole& result);
+  Status fillParts(uint32_t rim, const FillOptions& options, FilledHole& result, bool& isDone);
   Status span(Hole& hole, const FillOptions& options, FilledHole& result);
   void surround(Hole& hole);
-  bool append(const Hole& hole, FilledHole& result);
+  void takeRings(Hole& hole, std::vector<uint32_t>& faces);
+  void takeSide(Hole& hole, std::vector<uint32_t>& faces);
+  bool append(const Hole& hole);
   bool findPairs(const Hole& hole, size_t most, std::vector<FacePair>& pairs);
-  bool isNext(uint32_t e, uint32_t next) const;
-  double rimAngle(const Hole& hole) const;
+  bool findOwnPairs(uint32_t from, uint32_t to, std::vector<FacePair>& pairs);
+  double rimAngle(const Hole& hole, double* largest) const;
   bool isFaceOfMesh(uint32_t a, uint32_t b, uint32_t c) const;
+  uint32_t faceCount() const { return uint32_t((mesh_.faces.size() + newFaces_.size()) / 3); }
+  uint32_t vertexCount() const {
+    return uint32_t((mesh_.positions.size() + newPositions_.size()) / 3);
+  }
+  Vec3 point(uint32_t vertex) const;
 
   MeshView mesh_;
   const Adjacency& adjacency_;

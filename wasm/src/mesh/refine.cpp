@@ -118,8 +118,13 @@ bool Refinement::begin() {
         {surface_.positions[3 * v], surface_.positions[3 * v + 1], surface_.positions[3 * v + 2]});
   mesh_.corners.assign(surface_.triangles.begin() + ptrdiff_t(3 * size_t(surface_.fixedTriangles)),
                        surface_.triangles.end());
-  for (uint32_t h = 0; h < surface_.triangles.size(); ++h)
-    if (!edges_.add(surface_.triangles[h], surface_.triangles[nextInTriangle(h)])) return false;
+  // Flips join vertices of the patch: other edges around it are not in the way.
+  std::vector<uint8_t> isPatch(n, 0);
+  for (const uint32_t v : mesh_.corners) isPatch[v] = 1;
+  for (uint32_t h = 0; h < surface_.triangles.size(); ++h) {
+    const uint32_t a = surface_.triangles[h], b = surface_.triangles[nextInTriangle(h)];
+    if (isPatch[a] && isPatch[b] && !edges_.add(a, b)) return false;
+  }
   return findTwins(mesh_.corners, uint32_t(n), work_, mesh_.twins);
 }
 

@@ -138,12 +138,13 @@ double RimTree::bound(const RimSide& from, Vec3 centre, double radius) {
   return std::log(l - radius) + (a > 0 ? a : 0) - 1e-9;
 }
 
-RimPartner RimTree::best(uint32_t edge, double reach) {
+RimPartner RimTree::best(uint32_t edge, double reach, RimPartner& own) {
   RimPartner best;
   visits_ = 0;
   const RimSide& from = sides_[edge];
   const Vec3 centre = balls_[from.rim].centre;
   searchRim(edge, from.rim, best);
+  own = best;
   rimStack_.clear();
   const auto pushRims = [&](uint32_t number) {
     const RimNode& node = rimNodes_[number];

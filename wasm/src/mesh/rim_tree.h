@@ -49,7 +49,8 @@ class RimTree {
   /// Cost is L exp(a + b + w): L is the distance of the middles, a and b are the angles of the
   /// straight line with the surfaces at its ends, w is the rotation between the frames.
   /// Of equal ones, the first that is found. The work may have ended.
-  RimPartner best(uint32_t edge, double reach);
+  ///   own  the partner on its own rim
+  RimPartner best(uint32_t edge, double reach, RimPartner& own);
 
  private:
   /// An inner node's children are the next node and `first`.

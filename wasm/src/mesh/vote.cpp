@@ -17,7 +17,7 @@ constexpr double kTurnOfOpen = 2.8;
 constexpr double kAreaOfSlit = 1e-5, kTurnAcrossSlit = 3.5, kRotationAcrossSlit = 1;
 /// The logarithm of how many times cheaper the partner's own best may be. An edge that has something better
 /// is no partner: the holes of one thing are of no use to the rim of another beside it.
-constexpr double kUnrequited = 2;
+constexpr double kUnrequited = 1.5;
 /// An edge looks for partners on rims not farther than this many radii of its own.
 constexpr double kReach = 3;
 
@@ -80,9 +80,9 @@ bool castVotes(const MeshView& mesh, const Rims& rims, Work& work, Charge& charg
   const UnitScale at(mesh.positions);
   const size_t edges = rims.vertices.size();
   Charge temporary(work);
-  if (!temporary.add(edges *
-                         (sizeof(RimSide) + sizeof(RimPartner) + sizeof(double) + sizeof(Vec3)) +
-                     rims.count() * (sizeof(RimBall) + 1)) ||
+  if (!temporary.add(
+          edges * (sizeof(RimSide) + 2 * sizeof(RimPartner) + sizeof(double) + sizeof(Vec3)) +
+          rims.count() * (sizeof(RimBall) + 1)) ||
       !charge.add(rims.count() * sizeof(double)))
     return false;
   Voters voters{std::vector<RimSide>(edges), std::vector<double>(edges),
@@ -91,9 +91,9 @@ bool castVotes(const MeshView& mesh, const Rims& rims, Work& work, Charge& charg
   RimTree tree(work);
   if (!tree.build(voters.sides, rims.starts, voters.balls)) return false;
 
-  std::vector<RimPartner> partners(edges);
+  std::vector<RimPartner> partners(edges), own(edges);
   for (uint32_t e = 0; e < edges; ++e) {
-    partners[e] = tree.best(e, kReach * voters.balls[voters.sides[e].rim].radius);
+    partners[e] = tree.best(e, kReach * voters.balls[voters.sides[e].rim].radius, own[e]);
     if (!work.going()) return false;
   }
   std::vector<RimVote> ballots;
@@ -106,13 +106,14 @@ bool castVotes(const MeshView& mesh, const Rims& rims, Work& work, Charge& charg
     for (uint32_t e = first; e < first + n; ++e) {
       const RimPartner& best = partners[e];
       const double share = whole > 0 ? voters.lengths[e] / whole : 1.0 / n;
-      const uint32_t other = best.edge == kNone ? kNone : voters.sides[best.edge].rim;
-      const bool isUnrequited =
-          other != kNone && other != r && best.cost > partners[best.edge].cost + kUnrequited;
-      if (isUnrequited || facesNothing(best, voters.isSlit[r] != 0)) {
+      const uint32_t other = best.edge == kNone ? r : voters.sides[best.edge].rim;
+      // An edge without a partner elsewhere is judged as if there were only its own rim.
+      const bool isUnrequited = other != r && best.cost > partners[best.edge].cost + kUnrequited;
+      if (facesNothing(isUnrequited ? own[e] : best, voters.isSlit[r] != 0)) {
         result.openness[r] += share;
         continue;
       }
+      if (isUnrequited) continue;
       if (other == r || !(share > 0)) continue;
       RimVote ballot{r, other, share, 0, 0, false};
       if (r > other) ballot = {other, r, 0, share, 0, false};
