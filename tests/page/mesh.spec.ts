@@ -73,8 +73,8 @@ function plyOf({ points, faces }: ReturnType<typeof tornTorus>): string {
   return header + points.map((p) => `${p.join(' ')}\n`).join('') + faces.map((face) => `3 ${face.join(' ')}\n`).join('');
 }
 
-async function openFile(page: Page, name: string, text: string): Promise<void> {
-  await page.getByLabel('File of meshes').setInputFiles({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(text) });
+async function openFile(page: Page, name: string, content: string | Buffer): Promise<void> {
+  await page.getByLabel('File of meshes').setInputFiles({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(content) });
 }
 
 async function openTorus(page: Page): Promise<State> {
@@ -139,6 +139,12 @@ test('export: every format is watertight, and the old part is as it was', async 
   const stl = await exported(page, 'STL');
   expect(stl.bytes.readUInt32LE(80)).toBe(rows('f').length);
   expect(stl.bytes.length).toBe(84 + 50 * rows('f').length);
+  for (const { bytes, file } of [obj, ply, stl]) {
+    await openFile(page, file.replace('.', '-again.'), bytes);
+    await expect(page.locator('.toast')).toContainText('-again');
+    await expect(summary(page)).toHaveText('No holes: the mesh is closed');
+    expect((await stateOf(page)).faces).toBe(rows('f').length);
+  }
 });
 
 test('rims: lit from the list and the other way round, chosen by a click, filled by Enter, dragging turns the view', async ({ quietPage: page }) => {
@@ -247,6 +253,30 @@ test('undo across modes, and a draft: what was decided is there again', async ({
   await openFile(page, 'other.ply', plyOf(tornTorus()));
   await page.waitForFunction(() => window.__meshes?.document.name === 'other');
   expect((await stateOf(page)).filled).toEqual([]);
+});
+
+test('triangles with vertices of their own: their seams are told, and welded', async ({ quietPage: page }) => {
+  await openMode(page);
+  const { points, faces } = tornTorus();
+  const soup = { points: faces.flat().map((v) => points[v]), faces: faces.map((_, f): Face => [3 * f, 3 * f + 1, 3 * f + 2]) };
+  await openFile(page, 'soup.ply', plyOf(soup));
+  await expect(page.getByText('such rims are seams')).toBeVisible();
+  await page.getByRole('button', { name: 'Weld the seams' }).click();
+  await expect(summary(page)).toHaveText('0 of 2 holes filled');
+  await expect(page.getByText('such rims are seams')).toBeHidden();
+  await page.keyboard.press('Control+z');
+  await expect(page.getByText('such rims are seams')).toBeVisible();
+});
+
+test('a patch that crosses something: is said and marked', async ({ quietPage: page }) => {
+  await openMode(page);
+  await page.getByRole('button', { name: 'Pot with a mouth' }).click();
+  await page.getByRole('button', { name: /with 2 islands/ }).click();
+  await page.getByRole('button', { name: 'Split' }).click();
+  await page.getByRole('button', { name: 'Fill all', exact: true }).click();
+  await expect(page.getByText('it crosses something: marked in red')).toBeVisible();
+  const marked = await page.evaluate(() => window.__meshes?.patches.reduce((sum, { crossing }) => sum + crossing.length, 0));
+  expect(marked).toBeGreaterThan(0);
 });
 
 test('open rims: are left, unless that is asked for', async ({ quietPage: page }) => {

@@ -6,6 +6,7 @@ import { holesOf, join, split } from '../../web/src/modes/mesh/grouping.ts';
 import { meshKind } from '../../web/src/modes/mesh/mesh_kind.ts';
 import { areMeshSettings, kSettings, type MeshShape } from '../../web/src/modes/mesh/settings.ts';
 import { loopAt, noteRims, placeOf, rimsOf, wholeOf } from '../../web/src/modes/mesh/whole.ts';
+import { countTwins, weld } from '../../web/src/modes/mesh/weld.ts';
 import { wordsForDefect } from '../../web/src/modes/mesh/wording.ts';
 import { newItem } from '../../web/src/state/document.ts';
 
@@ -94,4 +95,14 @@ test('defects: in words, one or many', () => {
   const [faces, none] = [new Uint32Array(2), new Uint32Array()];
   expect(wordsForDefect({ kind: 'duplicate-face', faces, edges: none, vertices: none })).toBe('2 faces are there twice: kept as they are.');
   expect(wordsForDefect({ kind: 'unused-vertex', faces: none, edges: none, vertices: new Uint32Array(1) })).toBe('1 vertex is in no face: kept as it is.');
+});
+
+test('welding: seams go, faces that fold to nothing go, all else stays in order', () => {
+  const soup: MeshShape = {
+    positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, -0, 1, 0]),
+    faces: new Uint32Array([0, 1, 2, 3, 4, 5, 1, 3, 4]),
+  };
+  expect(countTwins(soup, [0, 1, 2, 3, 4, 5, 5])).toBe(2);
+  expect(weld(soup)).toEqual({ positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0]), faces: new Uint32Array([0, 1, 2, 1, 3, 2]) });
+  expect(Object.is(soup.positions[15], -0)).toBe(true);
 });

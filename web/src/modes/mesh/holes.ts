@@ -6,7 +6,8 @@ import { choose, dispatch, endGesture, hover, mode, selection } from '../../stat
 import { createWork, plainFailure } from '../../state/work.ts';
 import { holesOf, join, split, type Hole } from './grouping.ts';
 import { kMode, kNoChoices, meshGroup, type Choices, type MeshSettings } from './settings.ts';
-import { idsOf, loopAt, noteRims, placeOf, wholeOf, type Whole } from './whole.ts';
+import { countTwins, weld } from './weld.ts';
+import { idsOf, loopAt, noteRims, placeOf, shapeOf, wholeOf, type Whole } from './whole.ts';
 
 const items = computed(() => meshGroup.value.items);
 
@@ -35,6 +36,22 @@ export const finding = createWork<Whole, HoleReport>({
   },
   explain: plainFailure,
 });
+
+/** How many vertices of rims lie where another one does: seams rather than holes. */
+export const twins = computed(() => {
+  const now = found.value;
+  if (now === null) return 0;
+  const { loops } = now.report;
+  return countTwins(now.of, loops.flatMap(({ vertices }) => [...vertices]));
+});
+
+/** Makes one vertex of those at the same place. */
+export function weldAll(): void {
+  const { id, name, settings: present } = meshGroup.peek();
+  const shared = items.peek().map((item) => ({ ...item, shape: weld(shapeOf(item)) }));
+  // Loops have other numbers then.
+  dispatch({ type: 'open', group: id, name, items: shared, settings: { ...present, of: [], ...kNoChoices } });
+}
 
 export const settings = computed(() => meshGroup.value.settings);
 

@@ -1,6 +1,6 @@
 // The panel of the mode: how things stand, the list of holes, how they are filled, what is shown, examples.
 import { useState } from 'preact/hooks';
-import { computed } from '@preact/signals';
+import { computed, useComputed } from '@preact/signals';
 import { linear, NumberField, Section, Segments, Switch, type Choice } from '../../app/controls.tsx';
 import { countOf } from '../../app/files.ts';
 import { boundsOf } from '../../shapes/vec.ts';
@@ -30,6 +30,8 @@ import {
   setOpenRims,
   settings,
   splitHole,
+  twins,
+  weldAll,
   whole,
   wishFor,
 } from './holes.ts';
@@ -82,6 +84,14 @@ function Result() {
           {wordsForDefect(defect)}
         </p>
       ))}
+      {twins.value > 0 && (
+        <div class="message">
+          <p class="muted">{countOf(twins.value, 'vertex', 'vertices')} on rims {twins.value === 1 ? 'lies' : 'lie'} where another does: such rims are seams, not holes.</p>
+          <button type="button" class="button small" title="Vertices at the same place become one" onClick={weldAll}>
+            Weld the seams
+          </button>
+        </div>
+      )}
       {whole.value === null && <p class="muted">Drop a mesh on the page, open a file, or take an example.</p>}
     </Section>
   );
@@ -179,6 +189,9 @@ function Chosen() {
   );
 }
 
+/** Not read as the work's state, which changes with every step of its progress. */
+const isFilling = computed(() => filling.state.value.phase === 'running');
+
 type Status = readonly [word: string, tone: '' | 'good' | 'bad', reason?: string];
 
 function statusOf(hole: Hole): Status {
@@ -186,17 +199,19 @@ function statusOf(hole: Hole): Status {
   if (wish === 'leave') return ['left', ''];
   if (wish === null) return ['open', ''];
   const patch = patchOf(hole);
-  if (patch === null) return filling.state.value.phase === 'running' ? ['filling…', ''] : ['not filled', 'bad'];
+  if (patch === null) return isFilling.value ? ['filling…', ''] : ['not filled', 'bad'];
   if (!isFilled(patch)) return ['failed', 'bad', reasonIn(patch)];
-  return patch.result.status === 'self-intersecting' ? ['filled', 'bad', 'but it crosses something, in red'] : ['filled', 'good'];
+  return patch.result.status === 'self-intersecting' ? ['filled', 'bad', 'it crosses something: marked in red'] : ['filled', 'good'];
 }
 
 function HoleRow({ stage, hole, number }: { stage: Stage; hole: Hole; number: number }) {
-  const isThis = chosenHoles.value.includes(number);
+  // There may be hundreds of rows: one is made anew only when something about it changes.
+  const isThis = useComputed(() => chosenHoles.value.includes(number)).value;
+  const isHovered = useComputed(() => hoveredHole.value === number).value;
   const [word, tone, reason] = statusOf(hole);
   const isOn = wishFor(hole) === 'fill';
   const share = (100 * hole.length) / diagonal.value;
-  const classes = ['mesh-hole', isThis && 'chosen', hoveredHole.value === number && 'hovered'].filter(Boolean).join(' ');
+  const classes = ['mesh-hole', isThis && 'chosen', isHovered && 'hovered'].filter(Boolean).join(' ');
   return (
     <li class={classes} onPointerEnter={() => { hoverHole(number); }}>
       <button

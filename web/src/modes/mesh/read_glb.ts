@@ -3,7 +3,7 @@
 import { Matrix4, Quaternion, Vector3 } from 'three';
 import { bad } from './scanner.ts';
 import type { MeshShape } from './settings.ts';
-import { welded } from './read_stl.ts';
+import { welded } from './weld.ts';
 
 interface Accessor {
   readonly bufferView?: number;

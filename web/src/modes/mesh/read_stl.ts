@@ -1,6 +1,7 @@
 // Meshes in STL, text or binary. Its triangles have corners of their own: those at the same place become one vertex.
 import type { MeshShape } from './settings.ts';
 import { bad, Growing, Scanner } from './scanner.ts';
+import { welded } from './weld.ts';
 
 /** @throws SoapfilmError `bad-file` */
 export function readStl(bytes: Uint8Array, isText: boolean, text: () => string): MeshShape {
@@ -37,40 +38,4 @@ function cornersInText(text: string): Float32Array {
   } while (scan.nextLine());
   if (corners.length % 9 !== 0) throw bad('it ends within a facet', facetLine);
   return corners.taken();
-}
-
-/** Corners at the same place as one vertex. @param corners `[9m]` */
-export function welded(corners: Float32Array): MeshShape {
-  const n = corners.length / 3;
-  // Zero has two signs.
-  for (let i = 0; i < corners.length; i++) corners[i] += 0;
-  const bits = new Uint32Array(corners.buffer, corners.byteOffset, corners.length);
-  let size = 1;
-  while (size < 2 * n) size *= 2;
-  // A table of vertices by their places: 1 more than the number, 0 for none.
-  const table = new Uint32Array(size);
-  const positions = new Float32Array(corners.length);
-  const own = new Uint32Array(positions.buffer);
-  const faces = new Uint32Array(n);
-  let count = 0;
-  for (let i = 0; i < n; i++) {
-    const [x, y, z] = [bits[3 * i], bits[3 * i + 1], bits[3 * i + 2]];
-    let slot = (Math.imul(x, 0x9e3779b1) ^ Math.imul(y, 0x85ebca6b) ^ Math.imul(z, 0xc2b2ae35)) >>> 0;
-    slot = (slot ^ (slot >>> 15)) & (size - 1);
-    for (;;) {
-      const vertex = table[slot] - 1;
-      if (vertex < 0) {
-        own.set([x, y, z], 3 * count);
-        table[slot] = ++count;
-        faces[i] = count - 1;
-        break;
-      }
-      if (own[3 * vertex] === x && own[3 * vertex + 1] === y && own[3 * vertex + 2] === z) {
-        faces[i] = vertex;
-        break;
-      }
-      slot = (slot + 1) & (size - 1);
-    }
-  }
-  return { positions: positions.slice(0, 3 * count), faces };
 }
