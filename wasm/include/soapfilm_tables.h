@@ -271,7 +271,8 @@
   X(DuplicateFace, 4, "duplicate-face")       \
   X(TooLarge, 5, "too-large")                 \
   X(InsertedVertices, 6, "inserted-vertices") \
-  X(Stitched, 7, "stitched")
+  X(Stitched, 7, "stitched")                  \
+  X(OpposedRims, 8, "opposed-rims")
 
 #define SF_FILL_ARRAYS(X)                                                      \
   X(double, positions, "[3a] the vertices of all patches, numbered from n on") \

@@ -547,7 +547,7 @@ export const packPatchSettings = (settings: PatchSettings): Float64Array =>
 
 export const kFillStatusChoices = ['filled', 'self-intersecting', 'failed'] as const;
 
-export const kFillReasonChoices = ['none', 'no-surface', 'rims-intersect', 'repeated-vertex', 'duplicate-face', 'too-large', 'inserted-vertices', 'stitched'] as const;
+export const kFillReasonChoices = ['none', 'no-surface', 'rims-intersect', 'repeated-vertex', 'duplicate-face', 'too-large', 'inserted-vertices', 'stitched', 'opposed-rims'] as const;
 
 export interface FillArrays {
   /** [3a] the vertices of all patches, numbered from n on */

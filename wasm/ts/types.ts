@@ -508,6 +508,8 @@ export type HoleReason =
   | 'duplicate-face'
   | 'too-large'
   | 'inserted-vertices'
+  /** A rim runs the other way round than the rest: a part of the mesh is inside out. */
+  | 'opposed-rims'
   /** Filled, but in part at least by triangles without area: the rim touches itself. */
   | 'stitched'
   | 'too-many-vertices'

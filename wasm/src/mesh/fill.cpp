@@ -38,6 +38,14 @@ Vec3 normalOf(ArrayView<const double> positions, uint32_t a, uint32_t b, uint32_
   return cross(pointAt(positions, b) - p, pointAt(positions, c) - p);
 }
 
+/// Whether a surface that is wound along the first loop is wound along all of them.
+bool runsAlong(const LoopSet& loops, const std::vector<uint32_t>& triangles) {
+  size_t along = 0;
+  for (size_t t = 0; t < triangles.size(); t += 3)
+    for (int k = 0; k < 3; ++k) along += loops.next(triangles[t + k]) == triangles[t + (k + 1) % 3];
+  return along == loops.vertexCount();
+}
+
 }  // namespace
 
 /// A corner of the loops around a patch, and the edge from it to the next one.
@@ -50,9 +58,24 @@ struct HoleFiller::Hole {
   std::vector<Corner> corners;     // loop after loop, as faces that fill them run
   std::vector<uint32_t> starts;    // [k+1] in `corners`
   double crease = 0;               // of a part: the angle of the creases around it
+  bool crossesSeam = false;        // one of its rims does
   bool isPart = false;             // between creases, which bound what is around it as well
   std::vector<uint32_t> vertices;  // of the filled mesh: the fixed vertices, corners first
   LocalSurface surface;            // fixed vertices as in `vertices`
+
+  /// The corner after each.
+  std::vector<uint32_t> nextCorners() const {
+    std::vector<uint32_t> next(corners.size());
+    for (size_t l = 0; l + 1 < starts.size(); ++l)
+      for (uint32_t i = starts[l]; i < starts[l + 1]; ++i)
+        next[i] = i + 1 < starts[l + 1] ? i + 1 : starts[l];
+    return next;
+  }
+  /// Whether a corner of a part with one loop is where another part begins.
+  bool isBetween(uint32_t corner) const {
+    const size_t before = corner > 0 ? corner - 1 : corners.size() - 1;
+    return corners[corner].edge == kNone || corners[before].edge == kNone;
+  }
 };
 
 HoleFiller::HoleFiller(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims,
@@ -62,7 +85,7 @@ HoleFiller::HoleFiller(const MeshView& mesh, const Adjacency& adjacency, const R
 bool HoleFiller::prepare() {
   const size_t n = mesh_.positions.size() / 3, m = mesh_.faces.size() / 3;
   if (!reserve(fanStarts_, n + 1, charge_) || !reserve(fans_, 3 * m, charge_) ||
-      !reserve(local_, n, charge_))
+      !reserve(local_, n, charge_) || !reserve(isOfTwoRims_, n, charge_))
     return false;
   fanStarts_.assign(n + 1, 0);
   const auto counts = [&](size_t f) { return adjacency_.corners[3 * f] != kNone; };
@@ -76,16 +99,21 @@ bool HoleFiller::prepare() {
     if (counts(f))
       for (int k = 0; k < 3; ++k) fans_[next[mesh_.faces[3 * f + k]]++] = uint32_t(f);
   local_.assign(n, kNone);
+  // How many rims there are at each vertex, up to two.
+  isOfTwoRims_.assign(n, 0);
+  for (const uint32_t v : rims_.vertices)
+    if (isOfTwoRims_[v] < 2) ++isOfTwoRims_[v];
+  for (uint8_t& count : isOfTwoRims_) count = count == 2;
   return work_.tick(uint32_t(std::min<size_t>(20 * (n + m), 1u << 30))) &&
          tree_.build(mesh_, 0, uint32_t(m));
 }
 
-bool HoleFiller::isFaceOfMesh(uint32_t a, uint32_t b, uint32_t c) const {
+bool HoleFiller::isInFace(uint32_t a, uint32_t b, uint32_t c) const {
   if (a >= mesh_.positions.size() / 3) return false;
   for (uint32_t i = fanStarts_[a]; i < fanStarts_[a + 1]; ++i) {
     const uint32_t* f = mesh_.faces.data() + 3 * size_t(fans_[i]);
     const auto has = [&](uint32_t v) { return f[0] == v || f[1] == v || f[2] == v; };
-    if (has(b) && has(c)) return true;
+    if (has(b) && (c == kNone || has(c))) return true;
   }
   return false;
 }
@@ -148,16 +176,65 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
     for (size_t i = 0; i < triangles.size(); i += 3) std::swap(triangles[i + 1], triangles[i + 2]);
     break;
   }
-  for (size_t t = 0; t < triangles.size(); t += 3) {
-    const auto at = [&](size_t k) { return hole.corners[triangles[t + k]].vertex; };
-    if (isFaceOfMesh(at(0), at(1), at(2))) {
-      result.reason = FillReason::DuplicateFace;
-      return Status::Ok;
-    }
+  // Larger patches share no face with the mesh once chords are split.
+  const auto& corners = hole.corners;
+  if (corners.size() == 3 && isInFace(corners[0].vertex, corners[1].vertex, corners[2].vertex)) {
+    result.reason = FillReason::DuplicateFace;
+    return Status::Ok;
+  }
+  if (!hole.crossesSeam && !runsAlong(loops, triangles)) {
+    result.reason = FillReason::OpposedRims;
+    return Status::Ok;
   }
   hole.surface.triangles.insert(hole.surface.triangles.end(), triangles.begin(), triangles.end());
   result.status = FillStatus::Filled;
   return Status::Ok;
+}
+
+/// Whether an edge that is not of the rims is in the mesh already, or may be in another patch.
+bool HoleFiller::isTaken(uint32_t a, uint32_t b) const {
+  const uint32_t n = uint32_t(mesh_.positions.size() / 3);
+  if (a >= n || b >= n) return false;
+  return (isOfTwoRims_[a] && isOfTwoRims_[b]) || isInFace(a, b, kNone);
+}
+
+/// The same for the edges around a part of a hole, which cannot be split.
+bool HoleFiller::isBorderTaken(const Hole& hole) const {
+  const size_t n = hole.corners.size();
+  for (size_t i = 0; i < n; ++i)
+    if (hole.corners[i].edge == kNone &&
+        isTaken(hole.corners[i].vertex, hole.corners[(i + 1) % n].vertex))
+      return true;
+  return false;
+}
+
+/// Splits edges of the patch between vertices of the rims that the mesh has already, or that another patch may
+/// have, so that no edge gets more than two faces. The shape stays as it is.
+void HoleFiller::splitChords(Hole& hole, bool inFloats) {
+  LocalSurface& s = hole.surface;
+  const uint32_t corners = uint32_t(hole.corners.size());
+  const std::vector<uint32_t> next = hole.nextCorners();
+  // The triangles grow while they are looked at: halves are looked at again.
+  for (size_t t = 3 * size_t(s.fixedTriangles); t < s.triangles.size(); t += 3)
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t a = s.triangles[t + k], b = s.triangles[t + (k + 1) % 3];
+      if (a >= corners || b >= corners || next[a] == b || next[b] == a) continue;
+      const bool isAlongBorder = hole.isPart && hole.isBetween(a) && hole.isBetween(b);
+      if (!isAlongBorder && !isTaken(hole.vertices[a], hole.vertices[b])) continue;
+      const uint32_t middle = uint32_t(s.positions.size() / 3);
+      const Vec3 m = 0.5 * (pointAt(s.positions, a) + pointAt(s.positions, b));
+      for (const double x : {m.x, m.y, m.z}) s.positions.push_back(inFloats ? double(float(x)) : x);
+      const size_t end = s.triangles.size();
+      for (size_t u = t; u < end; u += 3)
+        for (int j = 0; j < 3; ++j) {
+          const uint32_t p = s.triangles[u + j], q = s.triangles[u + (j + 1) % 3],
+                         r = s.triangles[u + (j + 2) % 3];
+          if (!((p == a && q == b) || (p == b && q == a))) continue;
+          s.triangles[u + (j + 1) % 3] = middle;
+          s.triangles.insert(s.triangles.end(), {middle, q, r});
+          break;
+        }
+    }
 }
 
 /// The faces in some rings of vertices around the rims; `local_` numbers the vertices.
@@ -255,11 +332,7 @@ void HoleFiller::surround(Hole& hole) {
 /// The mean angle between the patch and the faces along the rim.
 double HoleFiller::rimAngle(const Hole& hole, double* largest) const {
   const LocalSurface& s = hole.surface;
-  // The corner after each.
-  std::vector<uint32_t> next(hole.corners.size());
-  for (size_t l = 0; l + 1 < hole.starts.size(); ++l)
-    for (uint32_t i = hole.starts[l]; i < hole.starts[l + 1]; ++i)
-      next[i] = i + 1 < hole.starts[l + 1] ? i + 1 : hole.starts[l];
+  const std::vector<uint32_t> next = hole.nextCorners();
   double sum = 0;
   uint32_t count = 0;
   for (size_t t = 3 * size_t(s.fixedTriangles); t < s.triangles.size(); t += 3)
@@ -340,6 +413,7 @@ Status HoleFiller::fill(ArrayView<const uint32_t> rims, const FillOptions& optio
   Hole hole;
   hole.starts = {0};
   for (const uint32_t r : rims) {
+    hole.crossesSeam |= rims_.rims[r].crossesSeam;
     for (uint32_t e = rims_.starts[r]; e < rims_.starts[r + 1]; ++e)
       hole.corners.push_back({rims_.vertices[e], e});
     hole.starts.push_back(uint32_t(hole.corners.size()));
@@ -373,6 +447,10 @@ Status HoleFiller::fillParts(const HoleParts& parts, const FillOptions& options,
     for (const PartCorner& c : part)
       hole.corners.push_back({c.vertex != kNone ? c.vertex : firstPoint + c.added, c.edge});
     hole.starts = {0, uint32_t(hole.corners.size())};
+    if (isBorderTaken(hole)) {
+      isGood = false;
+      break;
+    }
     FilledHole filled;
     status = fillPart(hole, options, filled);
     if (status != Status::Ok || filled.status != FillStatus::Filled) {
@@ -429,6 +507,11 @@ Status HoleFiller::fillPart(Hole& hole, const FillOptions& options, FilledHole& 
     if (status != Status::Ok) return status;
     result.fairnessUsed = smoothed.fairness.order;
     result.movedLess = 1 - smoothed.share;
+  }
+  splitChords(hole, options.inFloats);
+  if (surface.positions.size() / 3 - surface.fixedVertices > options.maxNewVertices) {
+    result.status = FillStatus::Failed, result.reason = FillReason::DuplicateFace;
+    return Status::Ok;
   }
   if (!findPairs(hole, kMostPairs, result.intersections)) return work_.status();
   if (!result.intersections.empty()) result.status = FillStatus::SelfIntersecting;

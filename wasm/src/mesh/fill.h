@@ -34,13 +34,14 @@ enum class FillStatus : uint8_t { Filled, SelfIntersecting, Failed };
 
 enum class FillReason : uint8_t {
   None,
-  NoSurface,         // the candidates hold none
-  RimsIntersect,     // rims cross or touch each other
-  RepeatedVertex,    // two vertices of the rims are in one place
-  DuplicateFace,     // the patch would be a face that is there already
+  NoSurface,       // the candidates hold none
+  RimsIntersect,   // rims cross or touch each other
+  RepeatedVertex,  // two vertices of the rims are in one place
+  DuplicateFace,  // the patch would have a face or an edge that is there already, and may have no vertices of its own
   TooLarge,          // for the memory that there is
   InsertedVertices,  // only a surface with vertices on the rim was found
-  Stitched,  // filled, in part at least by triangles without area between vertices in one place
+  Stitched,     // filled, in part at least by triangles without area between vertices in one place
+  OpposedRims,  // a rim runs the other way round than the rest: a part of the mesh is inside out
 };
 
 /// A hole's patch. Vertices from `MeshView`'s count on are its own, numbered on from those of earlier patches.
@@ -84,7 +85,11 @@ class HoleFiller {
   bool findPairs(const Hole& hole, size_t most, std::vector<FacePair>& pairs);
   bool findOwnPairs(uint32_t from, uint32_t to, std::vector<FacePair>& pairs);
   double rimAngle(const Hole& hole, double* largest) const;
-  bool isFaceOfMesh(uint32_t a, uint32_t b, uint32_t c) const;
+  void splitChords(Hole& hole, bool inFloats);
+  bool isTaken(uint32_t a, uint32_t b) const;
+  bool isBorderTaken(const Hole& hole) const;
+  /// Whether a face of the mesh has vertices a, b, and c unless that is kNone.
+  bool isInFace(uint32_t a, uint32_t b, uint32_t c) const;
   uint32_t faceCount() const { return uint32_t((mesh_.faces.size() + newFaces_.size()) / 3); }
   uint32_t vertexCount() const {
     return uint32_t((mesh_.positions.size() + newPositions_.size()) / 3);
@@ -98,6 +103,7 @@ class HoleFiller {
   Charge charge_;
   TriangleTree tree_;
   std::vector<uint32_t> fanStarts_, fans_;  // [n+1], [3m] faces at each input vertex that count
+  std::vector<uint8_t> isOfTwoRims_;        // [n]
   std::vector<uint32_t> local_;             // [n] scratch: number in the hole, or kNone
   std::vector<double> newPositions_;
   std::vector<uint32_t> newFaces_;

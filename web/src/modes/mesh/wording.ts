@@ -12,6 +12,7 @@ const kReasons: Record<HoleReason, string> = {
   'duplicate-face': 'the only triangle that fits is there already',
   'too-large': 'it is too large',
   'inserted-vertices': 'its rim would have to be split',
+  'opposed-rims': 'a part of the mesh around it is inside out',
   'stitched': 'its sides touch each other, and were sewn',
   'too-many-vertices': 'its rims have too many vertices',
   'too-long': 'its rim is too long',
