@@ -56,6 +56,7 @@ const kPublic = [
   'soapfilm/worker',
   'soapfilm/loops.wasm',
   'soapfilm/polygons.wasm',
+  'soapfilm/meshes.wasm',
   'soapfilm/package.json',
 ];
 

@@ -9,9 +9,9 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { list, packAndInstall, type Consumer } from './consumer.ts';
 
 // An app that spans two loops on the main thread and in a worker, triangulates a polygon in either, opens a
-// session on it in a worker, and says so in its title.
+// session on it in a worker, fills a cube without its lid in either, and says so in its title.
 const kApp = `
-  import { load, spanLoops, triangulatePolygon } from 'soapfilm';
+  import { fillHoles, load, spanLoops, triangulatePolygon } from 'soapfilm';
   import { createWorker } from 'soapfilm/worker';
   const ring = (count, z) => Array.from({ length: count }, (_, i) =>
     [Math.cos(2 * Math.PI * i / count), Math.sin(2 * Math.PI * i / count), z]);
@@ -24,6 +24,11 @@ const kApp = `
     found.push(triangulatePolygon(polygon), await film.triangulatePolygon(polygon));
     const session = await film.createPolygonSession(polygon);
     found.push({ triangles: await session.triangles });
+    const cube = {
+      positions: Float32Array.of(0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1),
+      faces: Uint32Array.of(0, 2, 1, 0, 3, 2, 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7),
+    };
+    for (const { mesh } of [fillHoles(cube), await film.fillHoles(cube)]) found.push({ triangles: mesh.faces });
     film.dispose();
     return found.map(({ triangles }) => triangles.length / 3).join(' ');
   }
@@ -31,7 +36,7 @@ const kApp = `
     (title) => (document.title = title),
     (error) => (document.title = 'failed: ' + error.message),
   );`;
-const kTitle = '14 14 7 7 7';
+const kTitle = '14 14 7 7 7 12 12';
 
 const kTypes: Readonly<Record<string, string>> = {
   '.html': 'text/html',
@@ -107,17 +112,18 @@ async function visitFolder(folder: string, headers: Record<string, string> = {})
 const kHtml = '<!doctype html><script type="module" src="./app.js"></script>';
 
 describe('bundlers', () => {
-  test('vite: both parts and the worker become assets, and both entries work', async () => {
+  test('vite: all parts and the worker become assets, and both entries work', async () => {
     const root = await writeApp('vite', kHtml);
     await vite({ root, base: './', logLevel: 'error', configFile: false });
     const files = await list(path.join(root, 'dist/assets'));
     expect(files.filter((file) => /^loops-.*\.wasm$/.test(file))).toHaveLength(1);
     expect(files.filter((file) => /^polygons-.*\.wasm$/.test(file))).toHaveLength(1);
+    expect(files.filter((file) => /^meshes-.*\.wasm$/.test(file))).toHaveLength(1);
     expect(files.filter((file) => /^worker_thread-.*\.js$/.test(file))).toHaveLength(1);
     const { title, asked } = await visitFolder(path.join(root, 'dist'));
     expect(title).toBe(kTitle);
     // Once each, although the worker has them as well.
-    expect(asked.filter((file) => /\.wasm$/.test(file))).toHaveLength(2);
+    expect(asked.filter((file) => /\.wasm$/.test(file))).toHaveLength(3);
     expect(asked.some((file) => /inline/.test(file))).toBe(false);
   });
 
@@ -166,7 +172,7 @@ describe('bundlers', () => {
     await writeFile(path.join(consumer.folder, 'index.html'), html);
     const { title, asked } = await visitFolder(consumer.folder);
     expect(title).toBe(kTitle);
-    for (const name of ['loops.wasm', 'polygons.wasm']) {
+    for (const name of ['loops.wasm', 'polygons.wasm', 'meshes.wasm']) {
       expect(asked).toContain(`/node_modules/soapfilm/wasm/dist/${name}`);
     }
   });

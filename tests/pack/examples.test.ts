@@ -17,6 +17,18 @@ const run = (name: string, ...args: string[]): Promise<string> =>
 /** The numbers with a decimal point in a text. */
 const decimals = (text: string): number[] => (text.match(/\d+\.\d+/g) ?? []).map(Number);
 
+/** How many edges of an OBJ file's faces lack a face on the other side. */
+function openEdgesOf(file: string): number {
+  const edges = new Set<string>();
+  for (const [, ...corners] of file.matchAll(/^f (\d+) (\d+) (\d+)$/gm)) {
+    corners.forEach((from, k) => {
+      const to = corners[(k + 1) % 3];
+      if (!edges.delete(`${to} ${from}`)) edges.add(`${from} ${to}`);
+    });
+  }
+  return edges.size;
+}
+
 describe('examples', () => {
   test('the course: each step is checked here', async () => {
     const steps = (await list(path.join(repository, 'examples'))).filter((name) => name.endsWith('.mjs'));
@@ -27,6 +39,8 @@ describe('examples', () => {
       '04-candidates.mjs',
       '05-worker.mjs',
       '06-extrude.mjs',
+      '07-fill-holes.mjs',
+      '08-soap-film.mjs',
     ]);
   });
 
@@ -96,13 +110,24 @@ describe('examples', () => {
     expect(error).toBe('hole-outside: ring 1 and ring 0');
     expect(repaired).toMatch(/^repaired: \d+ triangles, 2 points added$/);
     const file = await readFile(path.join(consumer.folder, 'plate.obj'), 'utf8');
-    const edges = new Set<string>();
-    for (const [, ...corners] of file.matchAll(/^f (\d+) (\d+) (\d+)$/gm)) {
-      corners.forEach((from, k) => {
-        const to = corners[(k + 1) % 3];
-        if (!edges.delete(`${to} ${from}`)) edges.add(`${from} ${to}`);
-      });
-    }
-    expect(edges.size).toBe(0);
+    expect(openEdgesOf(file)).toBe(0);
+  });
+
+  test('07-fill-holes: three kinds of holes, closed without an open edge, on the torus', async () => {
+    const lines = (await run('07-fill-holes.mjs', 'torus.obj')).trim().split('\n');
+    expect(lines.slice(0, 3).map((line) => line.split(':')[1].split(',')[0].trim()).sort()).toEqual(['alone', 'band', 'island']);
+    expect(lines[3]).toMatch(/^3 of 3 filled, closed: true, \d+ new faces$/);
+    expect(decimals(lines[4])[0]).toBeLessThan(0.005);
+    expect(lines[5]).toMatch(/^hole 0 alone: \d+ faces, closed: false$/);
+    const file = await readFile(path.join(consumer.folder, 'torus.obj'), 'utf8');
+    expect(openEdgesOf(file)).toBe(0);
+  });
+
+  test('08-soap-film: a catenoid to a thousandth of its radius, and none between rings too far apart', async () => {
+    const output = await run('08-soap-film.mjs', 'film.obj');
+    expect(output).toContain('at rest: true');
+    const [, off] = decimals(output);
+    expect(off).toBeLessThan(2e-3);
+    expect(output).toContain('rings 2 apart: no film between them');
   });
 });

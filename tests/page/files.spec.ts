@@ -220,8 +220,8 @@ test('files that this mode does not open: said what they are and what opens them
   const { curves } = await stateOf(page);
   const notice = page.locator('.toast');
   for (const [name, text, words] of [
-    ['bunny.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n', 'it is a mesh (OBJ), which no mode opens. Film opens'],
-    ['part.curve', 'solid part\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n', 'it is a mesh (STL), which no mode opens'],
+    ['bunny.off', 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n', 'it is a mesh (OFF), which no mode opens. Film opens'],
+    ['part.curve', 'ISO-10303-21;\nHEADER;\n', 'it is a CAD model (STEP), which no mode opens'],
     ['picture.curve', '\u0089PNG\r\n\u001a\n\0\0\0', 'it is in no format that is known here'],
     ['letter.txt', 'Dear reader,', 'it is in no format that is known here'],
   ]) {

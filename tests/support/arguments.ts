@@ -5,7 +5,10 @@ import {
   load,
   parseLoops,
   type ErrorCode,
+  type fillHoles,
+  type findHoles,
   type PolygonSession,
+  type smoothSurface,
   type spanLoops,
   type triangulateGeoJSON,
   type triangulatePolygon,
@@ -141,6 +144,11 @@ const kSurface = {
   starts: Uint32Array.of(0, 4),
 };
 const kCurve = formatLoops(kLoops);
+/** Two tetrahedra far from each other, a face missing in each: two holes. */
+export const kTwoHoles = {
+  positions: Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 9, 0, 0, 10, 0, 0, 9, 1, 0, 9, 0, 1),
+  faces: Uint32Array.of(0, 2, 1, 0, 1, 3, 0, 3, 2, 4, 6, 5, 4, 5, 7, 4, 7, 6),
+};
 
 /** A list with one item replaced. */
 const having = (list: readonly unknown[], index: number, value: unknown): unknown[] =>
@@ -152,6 +160,9 @@ export interface Functions {
   readonly triangulatePolygon: typeof triangulatePolygon | Film['triangulatePolygon'];
   readonly triangulatePolygons: typeof triangulatePolygons | Film['triangulatePolygons'];
   readonly triangulateGeoJSON: typeof triangulateGeoJSON | Film['triangulateGeoJSON'];
+  readonly findHoles: typeof findHoles | Film['findHoles'];
+  readonly fillHoles: typeof fillHoles | Film['fillHoles'];
+  readonly smoothSurface: typeof smoothSurface | Film['smoothSurface'];
 }
 
 type Call = (...args: never[]) => unknown;
@@ -190,6 +201,15 @@ const kPolygonOptions = {
   trace: kFlag,
   borrow: kFlag,
 } as const;
+const kWeld: readonly Kind[] = ['missing', ...kPositive];
+const kPatchOptions = {
+  weights: ['missing'],
+  candidates: ['missing'],
+  fairness: ['missing'],
+  density: ['missing', 'fraction'],
+  maxNewVertices: kLimit,
+  creases: ['missing', 'fraction', 'true', 'false'],
+} as const;
 const kPolygonsOptions = { ...kPolygonOptions, skipInvalid: kFlag };
 
 /** The places in the arguments of functions that both entries have; `more` are options that all take. */
@@ -198,6 +218,24 @@ export function functionSlots(functions: Functions, more: Readonly<Record<string
   const polygon = functions.triangulatePolygon as Call as typeof span;
   const polygons = functions.triangulatePolygons as Call as typeof span;
   const geojson = functions.triangulateGeoJSON as Call as typeof span;
+  const find = functions.findHoles as Call as typeof span;
+  const fill = functions.fillHoles as Call as typeof span;
+  const smooth = functions.smoothSurface as Call as typeof span;
+  const meshSlots = (name: string, call: typeof span) =>
+    slots(name, ['bad-mesh', 'not-finite'], [
+      ['mesh', call],
+      ['mesh.positions', (v) => call({ ...kTwoHoles, positions: v }), [], /`mesh\.positions`|Face 0/],
+      ['mesh.positions, alone', (v) => call({ positions: v, faces: new Uint32Array() }), floats, /`mesh\.positions`/],
+      ['mesh.faces', (v) => call({ ...kTwoHoles, faces: v }), ['Uint32Array'], /`mesh\.faces`/],
+      ['mesh.triangles', (v) => call({ positions: kTwoHoles.positions, triangles: v }), ['Uint32Array'], /`mesh\.(triangles|faces)`/],
+    ]);
+  const attributeSlots = (name: string, call: typeof span) =>
+    slots(name, ['bad-attributes'], [
+      ['mesh.attributes', (v) => call({ ...kTwoHoles, attributes: v }), kOptions],
+      ['mesh.attributes.colour', (v) => call({ ...kTwoHoles, attributes: { colour: v } }), ['missing']],
+      ['mesh.attributes.colour.data', (v) => call({ ...kTwoHoles, attributes: { colour: { data: v, size: 3 } } }), [], /attributes/],
+      ['mesh.attributes.colour.size', (v) => call({ ...kTwoHoles, attributes: { colour: { data: new Float32Array(24), size: v } } }), [], /attributes/],
+    ]);
   const weigh = (weights: object) => span([kLoop], { weights });
   const choose = (candidates: object) => span([kLoop], { candidates: { triangles: kSurface.triangles, ...candidates } });
   const floats: readonly Kind[] = ['Float32Array', 'Float64Array'];
@@ -279,6 +317,50 @@ export function functionSlots(functions: Functions, more: Readonly<Record<string
       ['geojson.features[0]', (v) => geojson({ type: 'FeatureCollection', features: [v] }), [], /\bgeojson\b/],
     ]),
     ...optionSlots('triangulateGeoJSON', (options) => geojson(kFeature, options), { ...kPolygonsOptions, ...more }),
+    ...meshSlots('findHoles', find),
+    ...attributeSlots('findHoles', find),
+    ...optionSlots('findHoles', (options) => find(kTwoHoles, options), { ...kLimits, weld: kWeld, ...more }),
+    ...meshSlots('fillHoles', fill),
+    ...attributeSlots('fillHoles', fill),
+    ...optionSlots('fillHoles', (options) => fill(kTwoHoles, options), {
+      ...kLimits,
+      ...kPatchOptions,
+      weld: kWeld,
+      holes: ['missing', 'empty array', 'short array'],
+      groups: ['missing', 'empty array'],
+      perHole: kOptions,
+      fillOpenRims: kFlag,
+      maxVertices: kLimit,
+      maxLength: kLimit,
+      output: ['missing'],
+      onProgress: kCallback,
+      ...more,
+    }),
+    ...slots('smoothSurface', ['bad-mesh', 'not-finite'], [
+      ['surface', smooth],
+      ['surface.positions', (v) => smooth({ ...kTwoHoles, positions: v }), [], /`surface\.positions`|Face 0/],
+      ['surface.positions, alone', (v) => smooth({ positions: v, faces: new Uint32Array() }), floats, /`surface\.positions`/],
+      // A face with one vertex three times is no surface.
+      ['surface.faces', (v) => smooth({ ...kTwoHoles, faces: v }), [], /`surface\.faces`|Face 0/],
+      ['surface.triangles', (v) => smooth({ positions: kTwoHoles.positions, triangles: v }), [], /`surface\.(triangles|faces)`|Face 0/],
+    ]),
+    ...optionSlots('smoothSurface', (options) => smooth(kTwoHoles, options), {
+      ...kLimits,
+      kind: ['missing'],
+      density: ['missing', 'fraction'],
+      maxNewVertices: kLimit,
+      ...more,
+    }),
+    ...slots('fillHoles, options', ['bad-option', 'bad-weights'], [
+      ['holes[0]', (v) => fill(kTwoHoles, { holes: [v] })],
+      ['groups[0]', (v) => fill(kTwoHoles, { groups: [v] }), ['short array']],
+      ['groups[0][1]', (v) => fill(kTwoHoles, { groups: [[0, v]] })],
+      ['perHole[0]', (v) => fill(kTwoHoles, { perHole: { 0: v } }), kOptions],
+      ['weights.area', (v) => fill(kTwoHoles, { weights: { area: v, dihedral: 1 } }), ['missing', ...kPositive]],
+      ...Object.entries(kPatchOptions).map(
+        ([option, valid]): Row => [`perHole[1].${option}`, (v) => fill(kTwoHoles, { perHole: { 1: { [option]: v } } }), valid],
+      ),
+    ]),
   ];
 }
 

@@ -1,8 +1,11 @@
 // Arguments of every kind in every place: what is wrong is an error that names it, and does no other harm.
 import {
+  fillHoles,
+  findHoles,
   formatObj,
   load,
   PolygonSession,
+  smoothSurface,
   SoapfilmError,
   spanLoops,
   triangulateGeoJSON,
@@ -15,6 +18,7 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import {
   fileSlots,
   functionSlots,
+  kTwoHoles,
   kValues,
   loadSlots,
   sessionSlots,
@@ -78,14 +82,18 @@ async function tryAll({ call, valid, names, codes }: Slot): Promise<void> {
   }
   expect(spanLoops([kLoop]).found).toBe(true);
   expect(triangulatePolygon([kSquare]).triangles.length).toBe(6);
+  expect(fillHoles(kTwoHoles).closed).toBe(true);
 }
 
-const here: Functions = { spanLoops, triangulatePolygon, triangulatePolygons, triangulateGeoJSON };
+const here: Functions = { spanLoops, triangulatePolygon, triangulatePolygons, triangulateGeoJSON, findHoles, fillHoles, smoothSurface };
 const there: Pick<Film, keyof Functions> = {
   spanLoops: (loops, options) => film.spanLoops(loops, options),
   triangulatePolygon: (polygon, options) => film.triangulatePolygon(polygon, options),
   triangulatePolygons: (polygons, options) => film.triangulatePolygons(polygons, options),
   triangulateGeoJSON: (geojson, options) => film.triangulateGeoJSON(geojson, options),
+  findHoles: (mesh, options) => film.findHoles(mesh, options),
+  fillHoles: (mesh, options) => film.fillHoles(mesh, options),
+  smoothSurface: (surface, options) => film.smoothSurface(surface, options),
 };
 
 const openHere = (polygon: unknown, options?: unknown): PolygonSession =>
@@ -157,6 +165,10 @@ const kSpanNames = [
 const kPolygonNames = [
   'maxMemoryBytes', 'maxSeconds', 'method', 'output', 'quality', 'verify', 'repair', 'trace', 'borrow',
 ];
+const kFillNames = [
+  'maxMemoryBytes', 'maxSeconds', 'weld', 'weights', 'candidates', 'fairness', 'density', 'maxNewVertices', 'creases', 'holes', 'groups',
+  'perHole', 'fillOpenRims', 'maxVertices', 'maxLength', 'output', 'onProgress',
+];
 const readers: [string, readonly string[], (options: object) => unknown][] = [
   ['spanLoops', kSpanNames, (options) => spanLoops([kLoop], options)],
   ['film.spanLoops', [...kSpanNames, 'signal'], (options) => film.spanLoops([kLoop], options)],
@@ -164,6 +176,10 @@ const readers: [string, readonly string[], (options: object) => unknown][] = [
   ['film.triangulatePolygons', [...kPolygonNames, 'skipInvalid', 'signal'], (options) => film.triangulatePolygons([[kSquare]], options)],
   ['PolygonSession', ['maxMemoryBytes'], (options) => new PolygonSession([kSquare], options)],
   ['film.createPolygonSession', ['maxMemoryBytes', 'signal'], (options) => film.createPolygonSession([kSquare], options)],
+  ['findHoles', ['maxMemoryBytes', 'maxSeconds', 'weld'], (options) => findHoles(kTwoHoles, options)],
+  ['fillHoles', kFillNames, (options) => fillHoles(kTwoHoles, options)],
+  ['film.fillHoles', [...kFillNames, 'signal'], (options) => film.fillHoles(kTwoHoles, options)],
+  ['smoothSurface', ['maxMemoryBytes', 'maxSeconds', 'kind', 'density', 'maxNewVertices'], (options) => smoothSurface(kTwoHoles, options)],
   ['load', ['parts', 'wasm', 'checks'], (options) => load(options)],
   ['createWorker', ['parts', 'wasm', 'checks', 'size'], (options) => createWorker(options)],
   ['formatObj', ['name', 'precision'], (options) => formatObj(kSurface, options)],
@@ -208,6 +224,8 @@ test('calls from within a listener: bad-option, whatever is called, and the work
         () => bystander.move(0, [1, 1]),
         () => bystander.read(),
         () => new PolygonSession([kSquare]),
+        () => findHoles(kTwoHoles),
+        () => fillHoles(kTwoHoles),
       ]) {
         expect(errorOf(call).code).toBe('bad-option');
         refused++;
@@ -217,6 +235,81 @@ test('calls from within a listener: bad-option, whatever is called, and the work
   expect(span.found).toBe(true);
   expect(refused).toBeGreaterThan(0);
   expect(bystander.read()).toEqual(before);
+});
+
+describe('meshes with faults', () => {
+  const faulty = (change: (positions: Float64Array, faces: Uint32Array) => void) => {
+    const [positions, faces] = [kTwoHoles.positions.slice(), kTwoHoles.faces.slice()];
+    change(positions, faces);
+    return { positions, faces };
+  };
+  const faults: [string, ReturnType<typeof faulty>, object][] = [
+    ['NaN', faulty((p) => (p[4] = NaN)), { code: 'not-finite', vertex: 1 }],
+    ['infinity', faulty((p) => (p[21] = -Infinity)), { code: 'not-finite', vertex: 7 }],
+    ['a coordinate beyond 1e150', faulty((p) => (p[0] = 1e151)), { code: 'not-finite', vertex: 0 }],
+    ['a vertex that is not there', faulty((_, f) => (f[7] = 8)), { code: 'bad-mesh', face: 2 }],
+    ['the largest number', faulty((_, f) => (f[17] = 0xffffffff)), { code: 'bad-mesh', face: 5 }],
+  ];
+  test.each(faults)('%s: an error with the place', async (_, mesh, error) => {
+    const { positions, faces } = mesh;
+    for (const given of [mesh, { positions, triangles: faces }]) {
+      expect(errorOf(() => findHoles(given))).toMatchObject(error);
+      expect(errorOf(() => fillHoles(given))).toMatchObject(error);
+      expect(await outcomeOf(() => film.findHoles(given))).toMatchObject(error);
+      expect(await outcomeOf(() => film.fillHoles(given))).toMatchObject(error);
+    }
+    expect(findHoles(kTwoHoles).groups.length).toBe(2);
+  });
+
+  test.each([4, 7])('arrays of %i numbers: bad-mesh, none of threes', (length) => {
+    for (const call of [findHoles, fillHoles]) {
+      expect(errorOf(() => call({ ...kTwoHoles, positions: new Float64Array(length) })).code).toBe('bad-mesh');
+      expect(errorOf(() => call({ ...kTwoHoles, faces: new Uint32Array(length) })).code).toBe('bad-mesh');
+    }
+  });
+
+  const beyond: [string, object][] = [
+    ['holes', { holes: [2] }],
+    ['holes', { holes: [0, 0] }],
+    ['groups', { groups: [[0], [2]] }],
+    ['groups', { groups: [[0], [1, 0]] }],
+    ['perHole', { perHole: { 2: {} } }],
+    ['perHole', { perHole: { first: {} } }],
+    ['perHole', { perHole: { '-1': {} } }],
+    ['perHole', { perHole: { 0: { fair: 1 } } }],
+    ['density', { density: 101 }],
+    ['fairness', { fairness: 3 }],
+    ['creases', { creases: 181 }],
+    ['weld', { weld: -1 }],
+    ['weld', { weld: Infinity }],
+  ];
+  test.each(beyond)('%s, %o: bad-option', async (name, options) => {
+    for (const error of [
+      await outcomeOf(() => fillHoles(kTwoHoles, options)),
+      await outcomeOf(() => film.fillHoles(kTwoHoles, options)),
+    ]) {
+      expect(error).toMatchObject({ code: 'bad-option' });
+      expect((error as SoapfilmError).message).toContain(name);
+    }
+  });
+
+  test.each([Float32Array, Float64Array])('%o: given back in its kind, and left as it is', async (Kind) => {
+    const given = { positions: Kind.from(kTwoHoles.positions), faces: kTwoHoles.faces.slice() };
+    const here = fillHoles(given);
+    expect(here.mesh.positions).toBeInstanceOf(Kind);
+    expect(await film.fillHoles(given)).toEqual(here);
+    expect(given).toEqual({ positions: Kind.from(kTwoHoles.positions), faces: kTwoHoles.faces });
+  });
+
+  test('shared memory: is read like any other, and not taken away', async () => {
+    const positions = new Float64Array(new SharedArrayBuffer(kTwoHoles.positions.byteLength));
+    const faces = new Uint32Array(new SharedArrayBuffer(kTwoHoles.faces.byteLength));
+    positions.set(kTwoHoles.positions);
+    faces.set(kTwoHoles.faces);
+    expect(fillHoles({ positions, faces })).toEqual(fillHoles(kTwoHoles));
+    expect(await film.fillHoles({ positions, faces })).toEqual(fillHoles(kTwoHoles));
+    expect([...faces]).toEqual([...kTwoHoles.faces]);
+  });
 });
 
 describe('GeoJSON that contains itself', () => {

@@ -4,6 +4,7 @@ import { describe, expect, test } from 'vitest';
 import { Content } from '../../web/src/app/content.ts';
 import { kKnownFiles } from '../../web/src/app/known_files.ts';
 import { film } from '../../web/src/modes/film/mode.ts';
+import { mesh } from '../../web/src/modes/mesh/mode.ts';
 import { polygon } from '../../web/src/modes/polygon/mode.ts';
 
 const bytesOf = (text: string) => new TextEncoder().encode(text);
@@ -60,20 +61,31 @@ describe('the kinds that film reads', () => {
   });
 });
 
-describe('the formats that no mode reads', () => {
+describe('the kinds that the mode of meshes reads', () => {
   const stl = new Uint8Array(84 + 2 * 50);
   stl[80] = 2;
+  test.each<[string, string | Uint8Array, string]>([
+    ['OBJ', kFaces, 'obj'],
+    ['OBJ after comments', `# a bunny\nmtllib bunny.mtl\n${kFaces.replaceAll('\n', '\r\n')}`, 'obj'],
+    ['STL as text', 'solid cube\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n', 'stl'],
+    ['STL in binary', stl, 'stl'],
+    ['PLY', 'ply\r\nformat ascii 1.0\r\n', 'ply'],
+    ['GLB', latin('glTF\x02\0\0\0'), 'glb'],
+  ])('%s', (_, data, id) => {
+    expect([kindOf(data, mesh), kindOf(data), kindOf(data, polygon)]).toEqual([id, undefined, undefined]);
+  });
+
+  test('an OBJ of lines: is none', () => {
+    expect(kindOf(kLines, mesh)).toBeUndefined();
+  });
+});
+
+describe('the formats that no mode reads', () => {
   const table = 'name,x,y\nfirst,0,1\nsecond,1,0\n';
   test.each<[string, string | Uint8Array]>([
-    ['a mesh (OBJ)', kFaces],
-    ['a mesh (OBJ)', `# a bunny\nmtllib bunny.mtl\n${kFaces.replaceAll('\n', '\r\n')}`],
     ['an OBJ file without lines', 'v 0 0 0\nv 1 0 0\n'],
-    ['a mesh (STL)', 'solid cube\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n'],
-    ['a mesh (STL)', stl],
-    ['a mesh (PLY)', 'ply\r\nformat ascii 1.0\r\n'],
     ['a mesh (OFF)', 'OFF\n3 1 0\n'],
     ['a mesh (OFF)', 'COFF\n3 1 0\n'],
-    ['a mesh (GLB)', latin('glTF\x02\0\0\0')],
     ['a mesh (glTF)', '{ "asset": { "version": "2.0" }, "meshes": [] }'],
     ['a TopoJSON file', '{ "type": "Topology", "arcs": [] }'],
     ['a JSON file of something else', '{ "type": "module", "name": "x" }'],

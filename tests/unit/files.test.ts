@@ -16,7 +16,7 @@ registerKind(dots);
 const kCurve = '1 3\n3\n0 0 0\n1 0 0\n0 1 0\n';
 const kTwo = '2 6\n3\n0 0 0\n1 0 0\n0 1 0\n3\n0 0 1\n1 0 1\n0 1 1\n';
 const kNamed = '{ "name": "Kite", "loops": [[[0,0,0],[1,0,0],[0,1,0]]] }';
-const kMesh = 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n';
+const kMesh = 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n';
 const kGeo = '{ "type": "FeatureCollection", "features": [] }';
 const kFilmOpens = 'Film opens a .curve file, a JSON file of loops or an OBJ file of lines.';
 
@@ -73,9 +73,9 @@ describe('openFiles', () => {
   });
 
   test('some that are none: the others are opened, each of these is named', async () => {
-    expect(await open(file('a.curve'), file('m.obj', kMesh), file('bad.curve', '1 3\n3\n0 0 zero\n'), file('b.curve'))).toBe(
+    expect(await open(file('a.curve'), file('m.off', kMesh), file('bad.curve', '1 3\n3\n0 0 zero\n'), file('b.curve'))).toBe(
       'Opened “a.curve” and “b.curve”: 2 curves. Could not open “bad.curve”: Line 3: "zero" is not a finite number. ' +
-        `Could not open “m.obj”: it is a mesh (OBJ), which no mode opens. ${kFilmOpens}`,
+        `Could not open “m.off”: it is a mesh (OFF), which no mode opens. ${kFilmOpens}`,
     );
     expect([shown()?.items.length, notice.value?.kind]).toEqual([2, 'error']);
   });

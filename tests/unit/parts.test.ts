@@ -1,9 +1,11 @@
-// The core's two parts: each loaded by itself, in this thread and in workers.
+// The core's parts: each loaded by itself, in this thread and in workers.
 import { readFile } from 'node:fs/promises';
 import { createServer, type Server } from 'node:http';
 import { createRequire } from 'node:module';
 import type { AddressInfo } from 'node:net';
 import {
+  fillHoles,
+  findHoles,
   load,
   PolygonSession,
   spanLoops,
@@ -26,6 +28,12 @@ const onPolygons: [string, () => unknown][] = [
   ['triangulatePolygons', () => triangulatePolygons([kSquare])],
   ['triangulateGeoJSON', () => triangulateGeoJSON(kGeoJSON)],
   ['PolygonSession', () => new PolygonSession(kSquare)],
+];
+
+const kMesh = { positions: Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1), faces: Uint32Array.of(0, 2, 1, 0, 1, 3, 0, 3, 2) };
+const onMeshes: [string, () => unknown][] = [
+  ['findHoles', () => findHoles(kMesh)],
+  ['fillHoles', () => fillHoles(kMesh)],
 ];
 
 /** Serves the package's modules and takes note of what it is asked for. */
@@ -54,6 +62,7 @@ afterAll(() => {
 const wasm = () => ({
   loops: new URL(`${address}/loops.wasm`),
   polygons: new URL(`${address}/polygons.wasm`),
+  meshes: new URL(`${address}/meshes.wasm`),
 });
 
 // In this order: what is loaded stays so.
@@ -79,10 +88,13 @@ describe('load', () => {
     await load({ parts: ['loops'], wasm: wasm() });
     expect(asked).toEqual(['loops.wasm']);
     expect(spanLoops(kLoops)).toMatchObject({ found: true, optimal: true });
-    for (const [, call] of onPolygons) {
-      const error = errorOf(call);
-      expect(error.code).toBe('not-loaded');
-      expect(error.message).toMatch(/'polygons'.*`parts`.*`load`/);
+    for (const [part, calls] of [['polygons', onPolygons], ['meshes', onMeshes]] as const) {
+      for (const [, call] of calls) {
+        const error = errorOf(call);
+        expect(error.code).toBe('not-loaded');
+        expect(error.message).toMatch(/'(\w+)'.*`parts`.*`load`/);
+        expect(error.message).toContain(part);
+      }
     }
   });
 
@@ -98,11 +110,11 @@ describe('load', () => {
   test('all parts, later: only what is missing is fetched', async () => {
     asked.length = 0;
     await Promise.all([load({ wasm: wasm() }), load({ parts: ['polygons'] }), load()]);
-    expect(asked).toEqual(['polygons.wasm']);
+    expect(asked.sort()).toEqual(['meshes.wasm', 'polygons.wasm']);
     expect(spanLoops(kLoops).found).toBe(true);
   });
 
-  test.each(onPolygons)('%s: works with all parts', (_, call) => {
+  test.each([...onPolygons, ...onMeshes])('%s: works with all parts', (_, call) => {
     expect(call()).toBeDefined();
   });
 
@@ -123,12 +135,13 @@ describe('createWorker', () => {
     expect(asked).toEqual([]);
   });
 
-  test('one part: the functions of the other are rejected, and say which part they need', async () => {
+  test('one part: the functions of the others are rejected, and say which part they need', async () => {
     const film = await createWorker({ parts: ['polygons'] });
     expect((await film.triangulatePolygon(kSquare)).triangles).toHaveLength(6);
     const error = await rejectionOf(film.spanLoops(kLoops));
     expect(error.code).toBe('not-loaded');
     expect(error.message).toMatch(/'loops'.*`parts`.*`createWorker`/);
+    expect((await rejectionOf(film.fillHoles(kMesh))).message).toMatch(/'meshes'.*`parts`.*`createWorker`/);
     expect((await film.triangulateGeoJSON(kGeoJSON)).triangles).toHaveLength(6);
     film.dispose();
   });

@@ -1,6 +1,6 @@
 // The C ABI of soapfilm's core, for the TypeScript runtime and for native tests. It takes plain pointers and
 // counts. Nothing throws, and every call checks its input. loops.wasm exports sf_span_loops; polygons.wasm
-// exports the functions for polygons; both export those for memory and result arrays.
+// exports the functions for polygons, meshes.wasm those for meshes; all export those for memory and result arrays.
 //
 // Threads: no function may be called from two threads at once. Each instance of a module, or each native
 //   process, runs one call at a time. Instances share nothing.
@@ -59,6 +59,27 @@ typedef struct SfPolygonFault {
 typedef struct SfEditFacts {
   SF_EDIT_FACTS_RECORD(SF_FIELD)
 } SfEditFacts;
+typedef struct SfLoopFacts {
+  SF_LOOP_FACTS_RECORD(SF_FIELD)
+} SfLoopFacts;
+typedef struct SfGroupFacts {
+  SF_GROUP_FACTS_RECORD(SF_FIELD)
+} SfGroupFacts;
+typedef struct SfDefectCounts {
+  SF_DEFECT_COUNTS_RECORD(SF_FIELD)
+} SfDefectCounts;
+typedef struct SfPatchSettings {
+  SF_PATCH_SETTINGS(SF_FIELD)
+} SfPatchSettings;
+typedef struct SfFilledFacts {
+  SF_FILLED_FACTS_RECORD(SF_FIELD)
+} SfFilledFacts;
+typedef struct SfSmoothSettings {
+  SF_SMOOTH_SETTINGS(SF_FIELD)
+} SfSmoothSettings;
+typedef struct SfSmoothNumbers {
+  SF_SMOOTH_NUMBERS_RECORD(SF_FIELD)
+} SfSmoothNumbers;
 #undef SF_FIELD
 
 // The arrays of each result, by name: SfSpan_triangles and the like.
@@ -76,6 +97,18 @@ enum SfEditArray { SF_EDIT_ARRAYS(SF_ARRAY) SfEditArrayCount };
 #undef SF_ARRAY
 #define SF_ARRAY(type, name, meaning) SfState_##name,
 enum SfStateArray { SF_STATE_ARRAYS(SF_ARRAY) SfStateArrayCount };
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SfHoles_##name,
+enum SfHolesArray { SF_HOLES_ARRAYS(SF_ARRAY) SfHolesArrayCount };
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SfWeld_##name,
+enum SfWeldArray { SF_WELD_ARRAYS(SF_ARRAY) SfWeldArrayCount };
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SfFill_##name,
+enum SfFillArray { SF_FILL_ARRAYS(SF_ARRAY) SfFillArrayCount };
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SfSmooth_##name,
+enum SfSmoothArray { SF_SMOOTH_ARRAYS(SF_ARRAY) SfSmoothArrayCount };
 #undef SF_ARRAY
 
 /// Arrays handed back by one call; owned by the caller until sf_result_free.
@@ -164,6 +197,46 @@ SfStatus sf_session_read(uint32_t session, SfPlace* where, SfResult** result);
 
 /// Ends the session of that number, if there is one. A later session may get the number. Returns Ok.
 SF_API(sf_session_close) SfStatus sf_session_close(uint32_t session);
+
+/// Finds the holes of a triangle mesh, and groups their rims (Zou, Ju, Carr 2013, sec. 5, 6).
+///   positions  [3 * vertexCount] xyz
+///   faces      [3 * faceCount]
+///   maxBytes   memory limit
+///   where      out: the vertex at fault; for BadMesh, the face as `vertex`
+///   result     out: SF_HOLES_ARRAYS; null unless the status is Ok
+SF_API(sf_find_holes)
+SfStatus sf_find_holes(const double* positions, uint32_t vertexCount, const uint32_t* faces,
+                       uint32_t faceCount, double maxBytes, SfPlace* where, SfResult** result);
+
+/// Makes vertices one that are within `radius` of each other; 0: at the same place.
+///   radius   finite, not negative; the rest as for sf_find_holes
+///   result   out: SF_WELD_ARRAYS; null unless the status is Ok
+SF_API(sf_weld_mesh)
+SfStatus sf_weld_mesh(const double* positions, uint32_t vertexCount, const uint32_t* faces,
+                      uint32_t faceCount, double radius, double maxBytes, SfPlace* where,
+                      SfResult** result);
+
+/// Fills holes of a triangle mesh.
+///   positions, vertexCount, faces, faceCount, maxBytes   as for sf_find_holes
+///   groupStarts   [groupCount + 1] from 0, increasing: where the loops of each hole begin
+///   groupLoops    numbers of loops, as sf_find_holes has them, each at most once
+///   settings      [groupCount] one for each hole
+///   where         out: as for sf_find_holes
+///   result        out: SF_FILL_ARRAYS; null unless the status is Ok
+SF_API(sf_fill_holes)
+SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount, const uint32_t* faces,
+                       uint32_t faceCount, const uint32_t* groupStarts, uint32_t groupCount,
+                       const uint32_t* groupLoops, const SfPatchSettings* settings, double maxBytes,
+                       SfPlace* where, SfResult** result);
+
+/// Smooths a surface between its boundary: a soap film, or a plate.
+///   positions, vertexCount, triangles, triangleCount   manifold, oriented, with a boundary
+///   where    out: the vertex at fault; for BadMesh, the triangle as `vertex`
+///   result   out: SF_SMOOTH_ARRAYS; null unless the status is Ok
+SF_API(sf_smooth_surface)
+SfStatus sf_smooth_surface(const double* positions, uint32_t vertexCount, const uint32_t* triangles,
+                           uint32_t triangleCount, const SfSmoothSettings* settings, SfPlace* where,
+                           SfResult** result);
 
 #ifdef __cplusplus
 }

@@ -11,29 +11,30 @@
 #define SOAPFILM_TABLES_H
 
 /* How a call ends. Only Ok and NotFound come with a result. */
-#define SF_STATUSES(X)                                                               \
-  X(Ok, 0, "done")                                                                   \
-  X(NotFound, 1, "no triangulation in the candidate space: an answer, not an error") \
-  X(NoLoops, 2, "zero loops")                                                        \
-  X(BadStarts, 3, "starts do not increase from 0 to n")                              \
-  X(NotFinite, 4, "a coordinate is NaN or beyond 1e150")                             \
-  X(TooFewVertices, 5, "a loop has fewer than 3 vertices")                           \
-  X(RepeatedVertex, 6, "two vertices have the same position")                        \
-  X(LoopsIntersect, 7, "two loop edges cross, touch or overlap")                     \
-  X(BadNormals, 8, "a boundary normal is zero, infinite or partly NaN")              \
-  X(BadWeights, 9, "a weight is negative or not finite, or all are zero")            \
-  X(BadCandidates, 10,                                                               \
-    "a candidate has an index out of range, is repeated or degenerate, "             \
-    "or has a weight that is not finite")                                            \
-  X(TooLarge, 11, "the predicted size exceeds the memory limit")                     \
-  X(OutOfMemory, 12, "the work reached the memory limit")                            \
-  X(Stopped, 13, "sf_host_progress asked to stop")                                   \
-  X(BadOption, 14, "a setting is out of its range")                                  \
-  X(SelfIntersecting, 15, "polygons: two edges of one ring cross or overlap")        \
-  X(HoleOutside, 16, "polygons: a hole is not inside the outer ring, or crosses it") \
-  X(HolesOverlap, 17, "polygons: two holes cross or have an edge in common")         \
-  X(NestedHole, 18, "polygons: a hole lies inside another")                          \
-  X(DegeneratePolygon, 19, "polygons: a ring has fewer than 3 distinct points, or a spike")
+#define SF_STATUSES(X)                                                                      \
+  X(Ok, 0, "done")                                                                          \
+  X(NotFound, 1, "no triangulation in the candidate space: an answer, not an error")        \
+  X(NoLoops, 2, "zero loops")                                                               \
+  X(BadStarts, 3, "starts do not increase from 0 to n")                                     \
+  X(NotFinite, 4, "a coordinate is NaN or beyond 1e150")                                    \
+  X(TooFewVertices, 5, "a loop has fewer than 3 vertices")                                  \
+  X(RepeatedVertex, 6, "two vertices have the same position")                               \
+  X(LoopsIntersect, 7, "two loop edges cross, touch or overlap")                            \
+  X(BadNormals, 8, "a boundary normal is zero, infinite or partly NaN")                     \
+  X(BadWeights, 9, "a weight is negative or not finite, or all are zero")                   \
+  X(BadCandidates, 10,                                                                      \
+    "a candidate has an index out of range, is repeated or degenerate, "                    \
+    "or has a weight that is not finite")                                                   \
+  X(TooLarge, 11, "the predicted size exceeds the memory limit")                            \
+  X(OutOfMemory, 12, "the work reached the memory limit")                                   \
+  X(Stopped, 13, "sf_host_progress asked to stop")                                          \
+  X(BadOption, 14, "a setting is out of its range")                                         \
+  X(SelfIntersecting, 15, "polygons: two edges of one ring cross or overlap")               \
+  X(HoleOutside, 16, "polygons: a hole is not inside the outer ring, or crosses it")        \
+  X(HolesOverlap, 17, "polygons: two holes cross or have an edge in common")                \
+  X(NestedHole, 18, "polygons: a hole lies inside another")                                 \
+  X(DegeneratePolygon, 19, "polygons: a ring has fewer than 3 distinct points, or a spike") \
+  X(BadMesh, 20, "meshes: a face has a vertex that is not there")
 
 /* The place in the input that a status is about. A field that does not apply is 0xFFFFFFFF. */
 #define SF_PLACE_RECORD(X)                                                          \
@@ -186,5 +187,135 @@
   X(uint32_t, stripStarts, "[s+1] where each strip begins in `strips`")        \
   X(uint32_t, certified,                                                       \
     "[1] 1 if the whole polygon passes the certificate, tested from scratch; else 0")
+
+/* sf_find_holes */
+
+#define SF_HOLES_ARRAYS(X)                                                                \
+  X(uint32_t, loopStarts, "[k+1] where the vertices of each loop begin")                  \
+  X(uint32_t, loopVertices, "the vertices of all loops, as faces that fill the hole run") \
+  X(SfLoopFacts, loopFacts, "[k]")                                                        \
+  X(uint32_t, groupStarts, "[g+1] where the loops of each group begin")                   \
+  X(uint32_t, groupLoops, "[k] the loops of all groups, the outer rim first")             \
+  X(SfGroupFacts, groupFacts, "[g]")                                                      \
+  X(SfDefectCounts, defects, "[d] what is wrong with the mesh, a kind at most once")      \
+  X(uint32_t, defectPlaces, "for each defect its faces, its edges as pairs, its vertices")
+
+#define SF_LOOP_FACTS_RECORD(X)                              \
+  X(double, length, "of the loop")                           \
+  X(double, diameter, "the largest distance in it")          \
+  X(double, openness, "share of its length, facing nothing") \
+  X(double, component, "of the faces along it")
+
+#define SF_GROUP_KIND_CHOICES(X) \
+  X(Alone, 0, "alone")           \
+  X(Island, 1, "island")         \
+  X(Band, 2, "band")
+
+#define SF_GROUP_FACTS_RECORD(X)                       \
+  X(double, kind, "a choice of SF_GROUP_KIND_CHOICES") \
+  X(double, score, "the least vote that it hangs by")  \
+  X(double, isOpenRim, "1 if it is meant to be open, else 0")
+
+#define SF_DEFECT_KIND_CHOICES(X)                \
+  X(NonManifoldEdge, 0, "non-manifold-edge")     \
+  X(NonManifoldVertex, 1, "non-manifold-vertex") \
+  X(Flipped, 2, "flipped")                       \
+  X(DuplicateFace, 3, "duplicate-face")          \
+  X(DegenerateFace, 4, "degenerate-face")        \
+  X(NotOrientable, 5, "not-orientable")          \
+  X(UnusedVertex, 6, "unused-vertex")
+
+#define SF_DEFECT_COUNTS_RECORD(X)                                   \
+  X(uint32_t, kind, "a choice of SF_DEFECT_KIND_CHOICES")            \
+  X(uint32_t, faces, "how many numbers of `defectPlaces` are faces") \
+  X(uint32_t, edges, "how many are of edges, two for each")          \
+  X(uint32_t, vertices, "how many are vertices")
+
+/* sf_weld_mesh */
+
+#define SF_WELD_ARRAYS(X)                                                              \
+  X(double, positions, "[3w] of the first vertex of each place, in the input's order") \
+  X(uint32_t, faces, "[3m] the input's faces")                                         \
+  X(uint32_t, vertexMap, "[n] the new number of each vertex")
+
+/* sf_fill_holes */
+
+#define SF_FAIRING_CHOICES(X)  \
+  X(None, 0, "none")           \
+  X(Bending, 1, "bending")     \
+  X(Curvature, 2, "curvature") \
+  X(Auto, 3, "auto")
+
+#define SF_PATCH_SETTINGS(X)                                                                   \
+  X(double, areaWeight, "per square unit; NaN: as in SF_SPAN_SETTINGS")                        \
+  X(double, perimeterWeight, "per unit of triangle perimeter")                                 \
+  X(double, dihedralWeight, "per radian")                                                      \
+  X(double, space, "a choice of SF_SPACE_CHOICES, but not Given")                              \
+  X(double, fairing, "a choice of SF_FAIRING_CHOICES")                                         \
+  X(double, density, "how much denser than its surroundings the patch is; 0: as spanned")      \
+  X(double, maxNewVertices, "most vertices that refining adds")                                \
+  X(double, crease,                                                                            \
+    "edges between faces that differ by more, in radians, go on through the hole; 0: none do") \
+  X(double, inFloats, "1 if coordinates of new vertices are rounded to single precision, else 0")
+
+#define SF_FILL_STATUS_CHOICES(X)             \
+  X(Filled, 0, "filled")                      \
+  X(SelfIntersecting, 1, "self-intersecting") \
+  X(Failed, 2, "failed")
+
+#define SF_FILL_REASON_CHOICES(X)             \
+  X(None, 0, "none")                          \
+  X(NoSurface, 1, "no-surface")               \
+  X(RimsIntersect, 2, "rims-intersect")       \
+  X(RepeatedVertex, 3, "repeated-vertex")     \
+  X(DuplicateFace, 4, "duplicate-face")       \
+  X(TooLarge, 5, "too-large")                 \
+  X(InsertedVertices, 6, "inserted-vertices") \
+  X(Stitched, 7, "stitched")                  \
+  X(OpposedRims, 8, "opposed-rims")
+
+#define SF_FILL_ARRAYS(X)                                                      \
+  X(double, positions, "[3a] the vertices of all patches, numbered from n on") \
+  X(uint32_t, faces, "[3b] the faces of all patches")                          \
+  X(SfFilledFacts, holes, "[g] by groups")                                     \
+  X(uint32_t, pairs, "[2p] faces of the filled mesh that intersect, by groups")
+
+#define SF_FILLED_FACTS_RECORD(X)                                          \
+  X(double, status, "a choice of SF_FILL_STATUS_CHOICES")                  \
+  X(double, reason, "a choice of SF_FILL_REASON_CHOICES")                  \
+  X(double, cost, "of the surface before it was refined")                  \
+  X(double, lowerBound, "proven, on that cost")                            \
+  X(double, optimal, "1 if that surface is proven to be the best, else 0") \
+  X(double, rimAngleBefore, "mean angle along the rim, before refining")   \
+  X(double, rimAngleAfter, "and after fairing")                            \
+  X(double, fairnessUsed, "the order of the fairing, 0 if there was none") \
+  X(double, movedLess, "share of the fairing that was taken back")         \
+  X(double, firstFace, "its first face in the filled mesh")                \
+  X(double, endFace, "the one after its last")                             \
+  X(double, pairs, "how many pairs of faces intersect")
+
+/* sf_smooth_surface */
+
+#define SF_SURFACE_KIND_CHOICES(X) \
+  X(SoapFilm, 0, "soap-film")      \
+  X(ThinPlate, 1, "thin-plate")    \
+  X(Curvature, 2, "curvature")
+
+#define SF_SMOOTH_SETTINGS(X)                                                         \
+  X(double, kind, "a choice of SF_SURFACE_KIND_CHOICES")                              \
+  X(double, density, "how much denser than its boundary the surface is; 0: as it is") \
+  X(double, maxNewVertices, "most vertices that refining adds")                       \
+  X(double, maxBytes, "memory limit")
+
+#define SF_SMOOTH_ARRAYS(X)                                                        \
+  X(double, positions, "[3n] the boundary's vertices as given, then those inside") \
+  X(uint32_t, triangles, "[3m] wound as given")                                    \
+  X(uint32_t, boundary, "[b] the numbers that the first b vertices had")           \
+  X(uint32_t, collapsed, "vertices where no film exists")                          \
+  X(SfSmoothNumbers, numbers, "[1]")
+
+#define SF_SMOOTH_NUMBERS_RECORD(X) \
+  X(double, area, "of the surface") \
+  X(double, isMinimal, "1 if a further step of a film would move nothing, else 0")
 
 #endif

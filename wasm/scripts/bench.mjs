@@ -5,6 +5,7 @@
 //   --draw     draws them from the last results
 // npm run bench -- polygons [filter… | --figures]: triangulators of polygons, ours and others; with --figures
 // all cases, and the README's table of them anew.
+// npm run bench -- holes [words…]: holes of meshes; of those in ../shared/data/holes, if there are any.
 import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { availableParallelism, loadavg } from 'node:os';
 import path from 'node:path';
@@ -220,11 +221,22 @@ async function measurePolygons(words) {
   say('Written: README.md');
 }
 
+async function measureHoles(words) {
+  await buildLibrary();
+  mkdirSync(folder, { recursive: true });
+  const file = path.join(folder, 'holes.json');
+  // In a clone, and in a worktree.
+  const meshes = ['../shared', '../../shared'].map((shared) => path.join(root, shared, 'data/holes')).find(existsSync);
+  await run(process.execPath, ['--stack-size=4000', path.join(bench, 'holes.bench.mjs'), meshes ?? '-', file, ...words]);
+  say(`\nWritten: ${path.relative(root, file)}`);
+}
+
 await main(async () => {
   checkNode();
   await ensureTools(['emcc', 'cmake', 'ninja', 'compiler']);
   const words = process.argv.slice(2);
   if (words[0] === 'polygons') return measurePolygons(words.slice(1));
+  if (words[0] === 'holes') return measureHoles(words.slice(1));
   const wants = (flag) => words.includes(flag);
   if (!wants('--draw')) await measure(words.filter((word) => !word.startsWith('--')), wants('--figures'));
   if (wants('--draw') || wants('--figures')) await draw();

@@ -48,6 +48,8 @@ export const Status = {
   NestedHole: 18,
   /** polygons: a ring has fewer than 3 distinct points, or a spike */
   DegeneratePolygon: 19,
+  /** meshes: a face has a vertex that is not there */
+  BadMesh: 20,
 } as const;
 
 export interface Place {
@@ -393,4 +395,278 @@ export const readStateArrays = (array: ArrayReader): StateArrays => ({
   strips: array(2, Uint32Array),
   stripStarts: array(3, Uint32Array),
   certified: array(4, Uint32Array),
+});
+
+export interface HolesArrays {
+  /** [k+1] where the vertices of each loop begin */
+  readonly loopStarts: Uint32Array;
+  /** the vertices of all loops, as faces that fill the hole run */
+  readonly loopVertices: Uint32Array;
+  /** LoopFacts: [k] */
+  readonly loopFacts: Float64Array;
+  /** [g+1] where the loops of each group begin */
+  readonly groupStarts: Uint32Array;
+  /** [k] the loops of all groups, the outer rim first */
+  readonly groupLoops: Uint32Array;
+  /** GroupFacts: [g] */
+  readonly groupFacts: Float64Array;
+  /** DefectCounts: [d] what is wrong with the mesh, a kind at most once */
+  readonly defects: Uint32Array;
+  /** for each defect its faces, its edges as pairs, its vertices */
+  readonly defectPlaces: Uint32Array;
+}
+
+export const readHolesArrays = (array: ArrayReader): HolesArrays => ({
+  loopStarts: array(0, Uint32Array),
+  loopVertices: array(1, Uint32Array),
+  loopFacts: array(2, Float64Array),
+  groupStarts: array(3, Uint32Array),
+  groupLoops: array(4, Uint32Array),
+  groupFacts: array(5, Float64Array),
+  defects: array(6, Uint32Array),
+  defectPlaces: array(7, Uint32Array),
+});
+
+export interface LoopFacts {
+  /** of the loop */
+  readonly length: number;
+  /** the largest distance in it */
+  readonly diameter: number;
+  /** share of its length, facing nothing */
+  readonly openness: number;
+  /** of the faces along it */
+  readonly component: number;
+}
+
+/** How many numbers of an array make one. */
+export const kLoopFactsLength = 4;
+
+/** The one that begins at index `at`. */
+export const readLoopFacts = (from: ArrayLike<number>, at = 0): LoopFacts => ({
+  length: from[at],
+  diameter: from[at + 1],
+  openness: from[at + 2],
+  component: from[at + 3],
+});
+
+export const kGroupKindChoices = ['alone', 'island', 'band'] as const;
+
+export interface GroupFacts {
+  /** a choice of SF_GROUP_KIND_CHOICES */
+  readonly kind: number;
+  /** the least vote that it hangs by */
+  readonly score: number;
+  /** 1 if it is meant to be open, else 0 */
+  readonly isOpenRim: number;
+}
+
+/** How many numbers of an array make one. */
+export const kGroupFactsLength = 3;
+
+/** The one that begins at index `at`. */
+export const readGroupFacts = (from: ArrayLike<number>, at = 0): GroupFacts => ({
+  kind: from[at],
+  score: from[at + 1],
+  isOpenRim: from[at + 2],
+});
+
+export const kDefectKindChoices = ['non-manifold-edge', 'non-manifold-vertex', 'flipped', 'duplicate-face', 'degenerate-face', 'not-orientable', 'unused-vertex'] as const;
+
+export interface DefectCounts {
+  /** a choice of SF_DEFECT_KIND_CHOICES */
+  readonly kind: number;
+  /** how many numbers of `defectPlaces` are faces */
+  readonly faces: number;
+  /** how many are of edges, two for each */
+  readonly edges: number;
+  /** how many are vertices */
+  readonly vertices: number;
+}
+
+/** How many numbers of an array make one. */
+export const kDefectCountsLength = 4;
+
+/** The one that begins at index `at`. */
+export const readDefectCounts = (from: ArrayLike<number>, at = 0): DefectCounts => ({
+  kind: from[at],
+  faces: from[at + 1],
+  edges: from[at + 2],
+  vertices: from[at + 3],
+});
+
+export interface WeldArrays {
+  /** [3w] of the first vertex of each place, in the input's order */
+  readonly positions: Float64Array;
+  /** [3m] the input's faces */
+  readonly faces: Uint32Array;
+  /** [n] the new number of each vertex */
+  readonly vertexMap: Uint32Array;
+}
+
+export const readWeldArrays = (array: ArrayReader): WeldArrays => ({
+  positions: array(0, Float64Array),
+  faces: array(1, Uint32Array),
+  vertexMap: array(2, Uint32Array),
+});
+
+export const kFairingChoices = ['none', 'bending', 'curvature', 'auto'] as const;
+
+export interface PatchSettings {
+  /** per square unit; NaN: as in SF_SPAN_SETTINGS */
+  readonly areaWeight: number;
+  /** per unit of triangle perimeter */
+  readonly perimeterWeight: number;
+  /** per radian */
+  readonly dihedralWeight: number;
+  /** a choice of SF_SPACE_CHOICES, but not Given */
+  readonly space: number;
+  /** a choice of SF_FAIRING_CHOICES */
+  readonly fairing: number;
+  /** how much denser than its surroundings the patch is; 0: as spanned */
+  readonly density: number;
+  /** most vertices that refining adds */
+  readonly maxNewVertices: number;
+  /** edges between faces that differ by more, in radians, go on through the hole; 0: none do */
+  readonly crease: number;
+  /** 1 if coordinates of new vertices are rounded to single precision, else 0 */
+  readonly inFloats: number;
+}
+
+export const packPatchSettings = (settings: PatchSettings): Float64Array =>
+  Float64Array.of(
+    settings.areaWeight,
+    settings.perimeterWeight,
+    settings.dihedralWeight,
+    settings.space,
+    settings.fairing,
+    settings.density,
+    settings.maxNewVertices,
+    settings.crease,
+    settings.inFloats,
+  );
+
+export const kFillStatusChoices = ['filled', 'self-intersecting', 'failed'] as const;
+
+export const kFillReasonChoices = ['none', 'no-surface', 'rims-intersect', 'repeated-vertex', 'duplicate-face', 'too-large', 'inserted-vertices', 'stitched', 'opposed-rims'] as const;
+
+export interface FillArrays {
+  /** [3a] the vertices of all patches, numbered from n on */
+  readonly positions: Float64Array;
+  /** [3b] the faces of all patches */
+  readonly faces: Uint32Array;
+  /** FilledFacts: [g] by groups */
+  readonly holes: Float64Array;
+  /** [2p] faces of the filled mesh that intersect, by groups */
+  readonly pairs: Uint32Array;
+}
+
+export const readFillArrays = (array: ArrayReader): FillArrays => ({
+  positions: array(0, Float64Array),
+  faces: array(1, Uint32Array),
+  holes: array(2, Float64Array),
+  pairs: array(3, Uint32Array),
+});
+
+export interface FilledFacts {
+  /** a choice of SF_FILL_STATUS_CHOICES */
+  readonly status: number;
+  /** a choice of SF_FILL_REASON_CHOICES */
+  readonly reason: number;
+  /** of the surface before it was refined */
+  readonly cost: number;
+  /** proven, on that cost */
+  readonly lowerBound: number;
+  /** 1 if that surface is proven to be the best, else 0 */
+  readonly optimal: number;
+  /** mean angle along the rim, before refining */
+  readonly rimAngleBefore: number;
+  /** and after fairing */
+  readonly rimAngleAfter: number;
+  /** the order of the fairing, 0 if there was none */
+  readonly fairnessUsed: number;
+  /** share of the fairing that was taken back */
+  readonly movedLess: number;
+  /** its first face in the filled mesh */
+  readonly firstFace: number;
+  /** the one after its last */
+  readonly endFace: number;
+  /** how many pairs of faces intersect */
+  readonly pairs: number;
+}
+
+/** How many numbers of an array make one. */
+export const kFilledFactsLength = 12;
+
+/** The one that begins at index `at`. */
+export const readFilledFacts = (from: ArrayLike<number>, at = 0): FilledFacts => ({
+  status: from[at],
+  reason: from[at + 1],
+  cost: from[at + 2],
+  lowerBound: from[at + 3],
+  optimal: from[at + 4],
+  rimAngleBefore: from[at + 5],
+  rimAngleAfter: from[at + 6],
+  fairnessUsed: from[at + 7],
+  movedLess: from[at + 8],
+  firstFace: from[at + 9],
+  endFace: from[at + 10],
+  pairs: from[at + 11],
+});
+
+export const kSurfaceKindChoices = ['soap-film', 'thin-plate', 'curvature'] as const;
+
+export interface SmoothSettings {
+  /** a choice of SF_SURFACE_KIND_CHOICES */
+  readonly kind: number;
+  /** how much denser than its boundary the surface is; 0: as it is */
+  readonly density: number;
+  /** most vertices that refining adds */
+  readonly maxNewVertices: number;
+  /** memory limit */
+  readonly maxBytes: number;
+}
+
+export const packSmoothSettings = (settings: SmoothSettings): Float64Array =>
+  Float64Array.of(
+    settings.kind,
+    settings.density,
+    settings.maxNewVertices,
+    settings.maxBytes,
+  );
+
+export interface SmoothArrays {
+  /** [3n] the boundary's vertices as given, then those inside */
+  readonly positions: Float64Array;
+  /** [3m] wound as given */
+  readonly triangles: Uint32Array;
+  /** [b] the numbers that the first b vertices had */
+  readonly boundary: Uint32Array;
+  /** vertices where no film exists */
+  readonly collapsed: Uint32Array;
+  /** SmoothNumbers: [1] */
+  readonly numbers: Float64Array;
+}
+
+export const readSmoothArrays = (array: ArrayReader): SmoothArrays => ({
+  positions: array(0, Float64Array),
+  triangles: array(1, Uint32Array),
+  boundary: array(2, Uint32Array),
+  collapsed: array(3, Uint32Array),
+  numbers: array(4, Float64Array),
+});
+
+export interface SmoothNumbers {
+  /** of the surface */
+  readonly area: number;
+  /** 1 if a further step of a film would move nothing, else 0 */
+  readonly isMinimal: number;
+}
+
+/** How many numbers of an array make one. */
+export const kSmoothNumbersLength = 2;
+
+/** The one that begins at index `at`. */
+export const readSmoothNumbers = (from: ArrayLike<number>, at = 0): SmoothNumbers => ({
+  area: from[at],
+  isMinimal: from[at + 1],
 });

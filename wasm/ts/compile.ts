@@ -20,6 +20,10 @@ const kFiles: Readonly<
     file: () => new URL('./polygons.wasm', import.meta.url),
     copy: () => import('./polygons_inline.js'),
   },
+  meshes: {
+    file: () => new URL('./meshes.wasm', import.meta.url),
+    copy: () => import('./meshes_inline.js'),
+  },
 };
 
 const compiling = new Map<Part, Promise<WebAssembly.Module>>();
@@ -52,7 +56,7 @@ export function partsOf({ parts, wasm, checks }: Given<LoadOptions>): [Part, Was
   const sources: Given<Record<Part, WasmSource>> =
     wasm === undefined || isSource('wasm', wasm)
       ? { [named[0]]: wasm }
-      : optionsOf<Record<Part, WasmSource>>(wasm, { loops: true, polygons: true }, 'wasm');
+      : optionsOf<Record<Part, WasmSource>>(wasm, { loops: true, polygons: true, meshes: true }, 'wasm');
   return named.map((part) => {
     const source = sources[part];
     if (source === undefined || isSource(`wasm.${part}`, source)) return [part, source];

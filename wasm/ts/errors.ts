@@ -10,6 +10,8 @@ export type ErrorCode =
   | 'too-few-vertices'
   | 'repeated-vertex'
   | 'loops-intersect'
+  | 'bad-mesh'
+  | 'bad-attributes'
   | 'bad-normals'
   | 'bad-weights'
   | 'bad-candidates'

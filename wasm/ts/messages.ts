@@ -86,6 +86,7 @@ const table: Readonly<Record<Failure, readonly [ErrorCode, (place: ErrorPlace) =
         ? `${at(place.loop, undefined)} has fewer than the 3 distinct points that a ring needs`
         : `the edges at ${first(place)} leave it in one direction, as a spike`,
   ],
+  BadMesh: ['bad-mesh', ({ face }) => `face ${face} has a vertex that is not there`],
 };
 
 const byStatus = new Map<number, (typeof table)[Failure]>(
@@ -119,4 +120,10 @@ export function statusError(
 /** The error for a polygon, whose loops are called rings. */
 export function ringError(status: number, where: Place, more?: ErrorPlace): SoapfilmError {
   return statusError(status, where, 'ring', more);
+}
+
+/** The error for a mesh, of which a vertex or a face is at fault. */
+export function meshError(status: number, where: Place): SoapfilmError {
+  if (status !== Status.BadMesh) return statusError(status, where);
+  return statusError(status, { ...where, vertex: kNone }, 'loop', { face: where.vertex });
 }

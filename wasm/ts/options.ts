@@ -2,15 +2,19 @@
 import { guarded, mustBe, type Given, type Names } from './check.js';
 import type {
   CandidateList,
+  FillOptions,
+  HoleFillOptions,
+  HoleOptions,
   LoadOptions,
   Part,
   PolygonOptions,
   PolygonsOptions,
+  SmoothOptions,
   SpanOptions,
   Weights,
 } from './types.js';
 
-export const kParts: readonly Part[] = ['loops', 'polygons'];
+export const kParts: readonly Part[] = ['loops', 'polygons', 'meshes'];
 
 export const kLoadOptions: Names<LoadOptions> = { parts: true, wasm: true, checks: true };
 
@@ -44,6 +48,32 @@ export const kPolygonOptions: Names<PolygonOptions> = {
 };
 
 export const kPolygonsOptions: Names<PolygonsOptions> = { ...kPolygonOptions, skipInvalid: true };
+
+export const kHoleFillOptions: Names<HoleFillOptions> = {
+  weights: true,
+  candidates: true,
+  fairness: true,
+  density: true,
+  maxNewVertices: true,
+  creases: true,
+};
+
+export const kHoleOptions: Names<HoleOptions> = { ...kLimits, weld: true };
+
+export const kSmoothOptions: Names<SmoothOptions> = { ...kLimits, kind: true, density: true, maxNewVertices: true };
+
+export const kFillOptions: Names<FillOptions> = {
+  ...kHoleOptions,
+  ...kHoleFillOptions,
+  holes: true,
+  groups: true,
+  perHole: true,
+  fillOpenRims: true,
+  maxVertices: true,
+  maxLength: true,
+  output: true,
+  onProgress: true,
+};
 
 export interface Limits {
   readonly maxMemoryBytes?: number;

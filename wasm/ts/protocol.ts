@@ -3,6 +3,8 @@ import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
 import type { Modules } from './compile.js';
 import type { PolygonEditor } from './compute_edits.js';
 import type { FlatPolygons } from './flat_polygons.js';
+import type { computeHoles, computePatches } from './compute_holes.js';
+import type { computeSmooth } from './compute_smooth.js';
 import type { computeSpan } from './compute_span.js';
 import type { PolygonsOptions, PolygonTriangulation, PolygonsTriangulation } from './types.js';
 
@@ -14,6 +16,9 @@ export interface Calls {
   readonly spanLoops: typeof computeSpan;
   readonly triangulatePolygon: (polygon: FlatPolygons, options: PolygonsOptions) => PolygonTriangulation;
   readonly triangulatePolygons: (polygons: FlatPolygons, options: PolygonsOptions) => PolygonsTriangulation;
+  readonly findHoles: typeof computeHoles;
+  readonly fillHoles: typeof computePatches;
+  readonly smoothSurface: typeof computeSmooth;
 }
 
 /**

@@ -15,6 +15,8 @@ export interface Watch<T> {
   readonly onProgress?: ProgressListener | undefined;
   /** Wall-clock seconds after which the call ends with `time-limit`. */
   readonly maxSeconds?: number | undefined;
+  /** Seconds of these that an earlier call has used. */
+  readonly spentSeconds?: number | undefined;
   /** Called with each better result while the call runs. If it throws, the same happens. */
   readonly onResult?: ((arrays: T) => void) | undefined;
   /** Whether a call that the time limit ends returns what the core has found until then. */
@@ -49,6 +51,7 @@ export class Home {
 export const shared: Readonly<Record<Part, Home>> = {
   loops: new Home('loops'),
   polygons: new Home('polygons'),
+  meshes: new Home('meshes'),
 };
 
 /** The default memory limit of a call; WebAssembly memory ends at 4 GiB. */
@@ -86,7 +89,7 @@ interface Core {
 interface Run {
   readonly watch: Pick<
     Watch<unknown>,
-    'onProgress' | 'maxSeconds' | 'keepsResult' | 'borrows' | 'explain'
+    'onProgress' | 'maxSeconds' | 'spentSeconds' | 'keepsResult' | 'borrows' | 'explain'
   >;
   /** Reads the result of this handle, and gives it to the listener. */
   readonly hear: (handle: number) => void;
@@ -198,7 +201,7 @@ function onHostProgress(fraction: number, bestCost: number, lowerBound: number):
 function watchWork(run: Run, fraction: number, bestCost: number, lowerBound: number): void {
   const { watch, started } = run;
   const now = performance.now();
-  if (watch.maxSeconds !== undefined && now - started >= watch.maxSeconds * 1000) {
+  if (watch.maxSeconds !== undefined && now - started >= (watch.maxSeconds - (watch.spentSeconds ?? 0)) * 1000) {
     const text = `The work was not done within ${watch.maxSeconds} s (\`maxSeconds\`)`;
     const reason = new SoapfilmError('time-limit', text);
     run.stop = { reason, gently: watch.keepsResult === true, heard: false };

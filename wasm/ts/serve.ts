@@ -1,5 +1,7 @@
 // The thread's side of the pool: runs the calls that it receives, one after the other, and keeps sessions.
 import { PolygonEditor } from './compute_edits.js';
+import { computeHoles, computePatches } from './compute_holes.js';
+import { computeSmooth } from './compute_smooth.js';
 import { computePolygons, triangulationOfOne } from './compute_polygons.js';
 import { computeSpan } from './compute_span.js';
 import {
@@ -27,6 +29,9 @@ const calls: Calls = {
   spanLoops: computeSpan,
   triangulatePolygon: (polygon, options) => triangulationOfOne(computePolygons(polygon, options, false)),
   triangulatePolygons: (polygons, options) => computePolygons(polygons, options, true),
+  findHoles: computeHoles,
+  fillHoles: computePatches,
+  smoothSurface: computeSmooth,
 };
 
 const kinds: SessionKinds = { polygon: PolygonEditor };

@@ -39,7 +39,7 @@ export function spanOptionsOf(given: Given<SpanOptions>, input: LoopSet, own: bo
   return checked as SpanOptions;
 }
 
-function weightsOf(given: unknown): Weights {
+export function weightsOf(given: unknown): Weights {
   const weights = optionsOf(given, kWeights, 'weights', 'bad-weights');
   for (const [name, value] of Object.entries(weights)) {
     if (typeof value === 'number' && Number.isFinite(value) && value >= 0) continue;

@@ -383,12 +383,208 @@ export interface GeoJSONTriangulation extends PolygonsTriangulation {
   readonly featureStarts: Uint32Array;
 }
 
+/** A triangle mesh. */
+export interface MeshLike {
+  /** `[3n]` xyz. */
+  readonly positions: Float64Array | Float32Array;
+  /** `[3m]` three vertices a face. `triangles` is taken for it too. */
+  readonly faces: Uint32Array;
+  /** Of the vertices, by name: colours, texture coordinates. Patches carry them on. */
+  readonly attributes?: Readonly<Record<string, MeshAttribute>>;
+}
+
+/** `size` numbers for each vertex. */
+export interface MeshAttribute {
+  /** `[size n]`. */
+  readonly data: Float32Array;
+  readonly size: number;
+}
+
+/** `MeshLike`, or the same with `triangles` for `faces`. */
+export type MeshInput = MeshLike | (Omit<MeshLike, 'faces'> & { readonly triangles: Uint32Array });
+
+export type DefectKind =
+  | 'non-manifold-edge'
+  | 'non-manifold-vertex'
+  | 'flipped'
+  | 'duplicate-face'
+  | 'degenerate-face'
+  | 'not-orientable'
+  | 'unused-vertex';
+
+/** What is wrong with a mesh, all places of one kind. The mesh is used as it is; nothing of it is changed. */
+export interface MeshDefect {
+  readonly kind: DefectKind;
+  /** Faces concerned. */
+  readonly faces: Uint32Array;
+  /** `[2e]` edges concerned, as pairs of vertices. */
+  readonly edges: Uint32Array;
+  /** Vertices concerned. */
+  readonly vertices: Uint32Array;
+}
+
+/** A closed loop of edges with a face on one side alone. */
+export interface HoleLoop {
+  /** The vertices in the order in which faces that fill the hole have them: the mesh's face is on the right. */
+  readonly vertices: Uint32Array;
+  readonly length: number;
+  /** The largest distance between two of its vertices; of more than 1000, a little too small. */
+  readonly diameter: number;
+  /** Share of its length, 0 to 1, that faces nothing: near 1 for rims that are meant to be open. */
+  readonly openness: number;
+  /** The number of the connected part of the mesh that it is of. */
+  readonly component: number;
+}
+
+/** Loops that bound one hole. */
+export interface HoleGroup {
+  /** Numbers of loops, the outer rim first. */
+  readonly loops: readonly number[];
+  /** The least vote that the group hangs by, 0 to 1; 1 for a loop alone. */
+  readonly score: number;
+  /** What its loops are: one alone; an outer rim with islands; the two ends of a missing band; as the caller said. */
+  readonly why: 'alone' | 'island' | 'band' | 'given';
+  /** Whether it is meant to be open: such a rim is filled only if that is asked for. */
+  readonly isOpenRim: boolean;
+}
+
+export interface HoleReport {
+  readonly loops: readonly HoleLoop[];
+  /** Every loop is in one of them. */
+  readonly groups: readonly HoleGroup[];
+  readonly defects: readonly MeshDefect[];
+  /** With `weld`: `[n]` the number of each vertex in the welded mesh, whose numbers the rest has. */
+  readonly vertexMap?: Uint32Array;
+}
+
+export interface HoleOptions {
+  /** Makes vertices one that are within this distance first; 0: at the same place. For meshes whose faces share none, as in STL files. */
+  readonly weld?: number;
+  /** Most memory to use. Default 3 GiB. */
+  readonly maxMemoryBytes?: number;
+  /** Ends the work with `time-limit` after so many seconds. */
+  readonly maxSeconds?: number;
+}
+
+/** How one hole is filled. */
+export interface HoleFillOptions {
+  /** What the surface costs before it is refined, as in `SpanOptions`. Default: the angles, and a little area. */
+  readonly weights?: Weights;
+  /** Which triangles the surface may have before it is refined. Default `'auto'`: all triples for small rims, else Delaunay. */
+  readonly candidates?: 'auto' | 'all' | 'delaunay' | 'near';
+  /** How smoothly the patch goes on what is around it: 0 not faired, 1 direction, 2 curvature too. Default `'auto'`: 2, but 1 where the surroundings are rough. */
+  readonly fairness?: 0 | 1 | 2 | 'auto';
+  /** How much denser than its surroundings the patch is (Liepa's factor). Default √2; 0: no new vertices. */
+  readonly density?: number;
+  /** Most new vertices in one hole. */
+  readonly maxNewVertices?: number;
+  /** Whether creases that end at the rim go on through the hole, or from which angle in degrees on. Default `true`: 40. */
+  readonly creases?: boolean | number;
+}
+
+export interface FillOptions extends HoleFillOptions, HoleOptions {
+  /** Numbers of groups in the `HoleReport`, or `'all'` (default): all but open rims. Those named here are filled, open or not. */
+  readonly holes?: readonly number[] | 'all';
+  /** Groups of loops in place of those found. Other loops stay open. */
+  readonly groups?: readonly (readonly number[])[];
+  /** Options of single holes, by the numbers of their groups. */
+  readonly perHole?: Readonly<Record<number, HoleFillOptions>>;
+  /** Fills open rims as well. */
+  readonly fillOpenRims?: boolean;
+  /** Skips holes with more vertices on their rims. */
+  readonly maxVertices?: number;
+  /** Skips holes with a longer outer rim. */
+  readonly maxLength?: number;
+  /** `'mesh'` (default): the whole mesh; `'patches'`: only what is new, for large meshes. */
+  readonly output?: 'mesh' | 'patches';
+  /** Called now and then with the share of the work that is done, the hole at work and how many there are. An error in it ends the work. */
+  readonly onProgress?: (fraction: number, hole: number, of: number) => void;
+}
+
+export type HoleReason =
+  | 'no-surface'
+  | 'rims-intersect'
+  | 'repeated-vertex'
+  | 'duplicate-face'
+  | 'too-large'
+  | 'inserted-vertices'
+  /** A rim runs the other way round than the rest: a part of the mesh is inside out. */
+  | 'opposed-rims'
+  /** Filled, but in part at least by triangles without area: the rim touches itself. */
+  | 'stitched'
+  | 'too-many-vertices'
+  | 'too-long'
+  | 'not-asked-for';
+
+/** What became of a hole. */
+export interface FilledHole {
+  /** Number of the group. */
+  readonly group: number;
+  readonly status: 'filled' | 'self-intersecting' | 'open-rim' | 'skipped' | 'failed';
+  readonly reason?: HoleReason;
+  /** Its faces in the filled mesh: from the first to before the second. */
+  readonly faces: readonly [from: number, to: number];
+  /** Of the surface before it was refined. */
+  readonly cost: number;
+  readonly lowerBound: number;
+  readonly optimal: boolean;
+  /** Mean angle between the patch and the faces along the rim, in radians: before refining and after fairing. */
+  readonly rimAngle: { readonly before: number; readonly after: number };
+  /** `[2p]` pairs of faces of the filled mesh that intersect. */
+  readonly intersections: Uint32Array;
+  /** 2: curvature goes on, 1: direction does, 0: not faired. */
+  readonly fairnessUsed: 0 | 1 | 2;
+  /** Share of the fairing that was taken back since the patch would have intersected something, 0 to 1. */
+  readonly movedLess: number;
+}
+
+export interface FillResult {
+  /** The mesh with its holes filled: old vertices and faces first, exactly as given. With `output: 'patches'` only the new ones; faces still name vertices of the whole. */
+  readonly mesh: MeshLike;
+  readonly oldVertices: number;
+  readonly oldFaces: number;
+  /** With `weld`: `[n]` the number of each vertex in the welded mesh, which then is the old part. */
+  readonly vertexMap?: Uint32Array;
+  /** Whether no hole was left, open rims neither. */
+  readonly closed: boolean;
+  /** By groups. */
+  readonly holes: readonly FilledHole[];
+  readonly defects: readonly MeshDefect[];
+}
+
+export interface SmoothOptions extends Omit<HoleOptions, 'weld'> {
+  /**
+   * `'soap-film'` (default): the surface of least area on its boundary, as near as its vertices allow; `'thin-plate'`:
+   * it bends least; `'curvature'`: its curvature varies least.
+   */
+  readonly kind?: 'soap-film' | 'thin-plate' | 'curvature';
+  /** How much denser than its boundary the surface is (Liepa's factor). Default √2; 0: it keeps its vertices. */
+  readonly density?: number;
+  /** Most new vertices. */
+  readonly maxNewVertices?: number;
+}
+
+export interface SmoothSurface {
+  /** `[3n]`: the vertices of the boundary, exactly as given, then those inside. */
+  readonly positions: Float64Array;
+  /** `[3m]`, wound as given. */
+  readonly triangles: Uint32Array;
+  /** `[b]` the numbers that the first b vertices had in the input. */
+  readonly boundary: Uint32Array;
+  /** Vertices where the film has shrunk to a thread: there is none, as between rings that are too far apart. */
+  readonly collapsed: Uint32Array;
+  readonly area: number;
+  /** For soap films: whether a further step would move nothing. */
+  readonly isMinimal: boolean;
+}
+
 /**
  * A part of the core that can be loaded by itself. `'loops'` is `loops.wasm`, for `spanLoops`. `'polygons'`
  * is `polygons.wasm`, for `triangulatePolygon`, `triangulatePolygons`, `triangulateGeoJSON` and
- * `PolygonSession`.
+ * `PolygonSession`. `'meshes'` is `meshes.wasm`, for `findHoles`, `fillHoles` and
+ * `smoothSurface`.
  */
-export type Part = 'loops' | 'polygons';
+export type Part = 'loops' | 'polygons' | 'meshes';
 
 /** A WebAssembly module: compiled, as bytes, as a response that holds them, or as the place of its file. */
 export type WasmSource = URL | string | Response | BufferSource | WebAssembly.Module;

@@ -11,11 +11,17 @@ import { Pool } from './pool.js';
 import { tellEnd } from './report.js';
 import { spanOptionsOf } from './span_input.js';
 import type {
+  FillOptions,
+  FillResult,
   GeoJSONLike,
   GeoJSONTriangulation,
+  HoleOptions,
+  HoleReport,
   LoadOptions,
   LoopsLike,
+  MeshInput,
   NoSpan,
+  Part,
   Point2Like,
   PolygonEdit,
   PolygonLike,
@@ -25,6 +31,8 @@ import type {
   PolygonState,
   PolygonsTriangulation,
   PolygonTriangulation,
+  SmoothOptions,
+  SmoothSurface,
   Span,
   SpanOptions,
 } from './types.js';
@@ -34,6 +42,7 @@ export { SoapfilmError } from './errors.js';
 export interface WorkerOptions extends LoadOptions {
   /**
    * Most threads at once for calls. One starts with the pool, others when there is work for them. Default 1.
+   * The holes of one mesh are shared out among them, with the same result for any number.
    * Sessions have threads of their own, up to as many again: no call that takes long holds up an edit, and none
    * that is cancelled costs a session. These start when they are needed, and end when they have no session.
    */
@@ -79,6 +88,10 @@ export interface Film {
     polygon: PolygonLike,
     options?: Pick<PolygonOptions, 'maxMemoryBytes'> & CallOptions,
   ): Promise<PolygonSessionHandle>;
+  findHoles(mesh: MeshInput, options?: HoleOptions & CallOptions): Promise<HoleReport>;
+  /** `onProgress` is called in the caller's thread. */
+  fillHoles(mesh: MeshInput, options?: FillOptions & CallOptions): Promise<FillResult>;
+  smoothSurface(surface: MeshInput, options?: SmoothOptions & CallOptions): Promise<SmoothSurface>;
   /** Ends all threads. Calls under way and later calls fail with `disposed`, and so do those of sessions. */
   dispose(): void;
   [Symbol.dispose](): void;
@@ -134,12 +147,10 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
   // Who asks for loops alone does not fetch what is for polygons.
   const polygons = modules.polygons
     ? (await import('./worker_polygons.js')).polygonCalls(pool)
-    : {
-        triangulatePolygon: missing,
-        triangulatePolygons: missing,
-        triangulateGeoJSON: missing,
-        createPolygonSession: missing,
-      };
+    : missing('polygons', 'triangulatePolygon', 'triangulatePolygons', 'triangulateGeoJSON', 'createPolygonSession');
+  const meshes = modules.meshes
+    ? (await import('./worker_meshes.js')).meshCalls(pool)
+    : missing('meshes', 'findHoles', 'fillHoles', 'smoothSurface');
   return {
     async spanLoops(loops, options = {}) {
       const input = flattenLoops(loops, true);
@@ -171,9 +182,14 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
       return span;
     },
     ...polygons,
+    ...meshes,
     dispose,
     [kDispose]: dispose,
   };
 }
 
-const missing = (): Promise<never> => Promise.reject(notLoaded('polygons'));
+/** Functions that say which part they lack. */
+function missing<N extends keyof Film>(part: Part, ...names: N[]): Record<N, () => Promise<never>> {
+  const fail = (): Promise<never> => Promise.reject(notLoaded(part));
+  return Object.fromEntries(names.map((name) => [name, fail])) as Record<N, typeof fail>;
+}

@@ -55,5 +55,17 @@ SF_EDIT_ARRAYS(SF_ARRAY)
 #define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfState, type, name)
 SF_STATE_ARRAYS(SF_ARRAY)
 #undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfHoles, type, name)
+SF_HOLES_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfWeld, type, name)
+SF_WELD_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfFill, type, name)
+SF_FILL_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfSmooth, type, name)
+SF_SMOOTH_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
 
 }  // namespace sf

@@ -42,13 +42,22 @@ class Work {
     if (pending_ >= kUnitsPerReport) report();
     return status_ == Status::Ok;
   }
+  /// Begins a stage of work that has several, such as one of many holes: the parts that follow fill the fractions
+  /// [a, b] of the whole.
+  void beginStage(double a, double b) {
+    stageStart_ = a, stageEnd_ = b;
+    setEarlier(std::numeric_limits<double>::infinity(), 0);
+    beginPart(0, 1, 0);
+  }
   /// Begins a part of the work: the phases that follow fill the fractions [a, b] of the whole.
   /// Forgets the costs known so far. Costs of this part are reported times 2^costExponent.
   ///   lowerBound   proven from the start, in the unit of this part
   ///   keepsBound   whether that is all: bounds of this part do not hold for the caller's problem
   void beginPart(double a, double b, int costExponent, double lowerBound = 0,
                  bool keepsBound = false) {
-    partStart_ = a, partEnd_ = b, costExponent_ = costExponent;
+    partStart_ = stageStart_ + (stageEnd_ - stageStart_) * a;
+    partEnd_ = stageStart_ + (stageEnd_ - stageStart_) * b;
+    costExponent_ = costExponent;
     best_ = std::numeric_limits<double>::infinity(), lower_ = lowerBound;
     keepsBound_ = keepsBound;
     phase(0, 1);
@@ -123,6 +132,7 @@ class Work {
   uint32_t pending_ = 0;
   uint64_t spent_ = 0, allowed_ = ~uint64_t(0);  // units
   bool isPaused_ = false;                        // only the allowance ended the work
+  double stageStart_ = 0, stageEnd_ = 1;
   double fraction_ = 0, partStart_ = 0, partEnd_ = 1, phaseStart_ = 0, phaseEnd_ = 1;
   int costExponent_ = 0;
   double best_ = std::numeric_limits<double>::infinity(), lower_ = 0;

@@ -12,6 +12,7 @@ import {
   dispatch,
   drawingPlane,
   group,
+  isMovable,
   redo,
   selection,
   stepHandle,
@@ -165,7 +166,7 @@ function coreActions(stage: Stage, tools: Tools, room: Room | undefined): readon
       keys: ['delete', 'backspace'],
       bar: 'bin',
       icon: 'trash',
-      applies: () => selection.value.length > 0,
+      applies: () => selection.value.some(isMovable),
       run: () => {
         const id = group.peek()?.id;
         if (id !== undefined) dispatch({ type: 'delete', group: id, places: selection.peek() });

@@ -21,13 +21,6 @@ const begun = (what: string, beginning: RegExp): KnownFile => ({
   isIt: ({ isText, head }) => isText && beginning.test(head),
 });
 
-/** An STL file in binary: 80 bytes of any kind, the number of triangles, and 50 bytes for each. */
-function isBinaryStl({ bytes }: Content): boolean {
-  if (bytes.length < 84) return false;
-  const count = new DataView(bytes.buffer, bytes.byteOffset).getUint32(80, true);
-  return bytes.length === 84 + 50 * count;
-}
-
 /** Lines of equally many fields, two at least. */
 function isTable({ isText, head }: Content): boolean {
   if (!isText) return false;
@@ -48,16 +41,13 @@ export const kKnownFiles: readonly KnownFile[] = [
   marked('a PDF document', '%PDF-'),
   marked('a ZIP archive, or a file packed in one, such as 3MF', 'PK\x03\x04', 'PK\x05\x06'),
   marked('a gzip archive', '\x1f\x8b'),
-  marked('a mesh (GLB)', 'glTF'),
   { what: 'a mesh (glTF)', isIt: (content) => content.isJson && content.hasKey('asset') },
   marked('a mesh (binary FBX)', 'Kaydara FBX Binary'),
   marked('a Blender file', 'BLENDER'),
   marked('a Rhino model (3DM)', '3D Geometry File Format'),
   marked('a shapefile', '\0\0\x27\x0a'),
   marked('an SQLite database, such as a GeoPackage', 'SQLite format 3'),
-  { what: 'a mesh (PLY)', isIt: (content) => hasMark(content, 'ply\n') || hasMark(content, 'ply\r') },
   begun('a mesh (OFF)', /^(ST)?C?N?4?n?OFF\b/),
-  { what: 'a mesh (STL)', isIt: (content) => (content.isText ? /^solid\b[^]*\bfacet\b/.test(content.head) : isBinaryStl(content)) },
   begun('a VTK file', /^# vtk DataFile/),
   begun('a CAD model (STEP)', /^ISO-10303-21/),
   // Lines have 80 columns; those of the second section are numbered after a G.
@@ -72,7 +62,6 @@ export const kKnownFiles: readonly KnownFile[] = [
   begun('an XML file', /^<\?xml\s/),
   begun('a geometry in WKT', /^(SRID=\d+;\s*)?(MULTI)?(POINT|LINESTRING|POLYGON)\s*(Z|M|ZM)?\s*(\(|EMPTY)/i),
   begun('a grid of heights (ASC)', /^ncols\s+\d/i),
-  { what: 'a mesh (OBJ)', isIt: (content) => content.hasStatement('v') && content.hasStatement('f') },
   { what: 'an OBJ file without lines', isIt: (content) => content.hasStatement('v') },
   { what: 'a table (CSV)', isIt: isTable },
 ];

@@ -6,7 +6,8 @@ import { lineCount, type Lines } from '../shapes/lines.ts';
 import { toScene, type Placement } from './placement.ts';
 
 export interface LineLook {
-  readonly color: string;
+  /** Absent: each segment has a colour of its own. */
+  readonly color?: string;
   /** In CSS pixels. */
   readonly width: number;
   /** Drawn over everything else. */
@@ -19,6 +20,10 @@ export interface LineLook {
 // beyond; what lies outside of the round ends is left out. Depth runs evenly over the screen, as it does without `w`.
 const kVertexShader = /* glsl */ `
 attribute vec3 other;
+#ifdef TINTED
+attribute vec3 tint;
+varying vec3 vTint;
+#endif
 uniform vec2 uSize;
 uniform float uHalf;
 uniform float uNearer;
@@ -43,18 +48,29 @@ void main() {
   vFromEnd = vec2(isFirst ? -uHalf : reach + uHalf, isFirst ? side : -side);
   vFromEnd.y *= uHalf;
   vLength = reach;
+  #ifdef TINTED
+  vTint = tint;
+  #endif
   gl_Position = isCut ? vec4(2.0, 2.0, 2.0, 1.0) : vec4(end.xy, end.z - uNearer, 1.0);
 }`;
 
 const kFragmentShader = /* glsl */ `
+#ifdef TINTED
+varying vec3 vTint;
+#else
 uniform vec3 uColor;
+#endif
 uniform float uHalf;
 varying vec2 vFromEnd;
 varying float vLength;
 void main() {
   float beyond = max(-vFromEnd.x, vFromEnd.x - vLength);
   if (beyond > 0.0 && length(vec2(beyond, vFromEnd.y)) > uHalf) discard;
+  #ifdef TINTED
+  gl_FragColor = vec4(vTint, 1.0);
+  #else
   gl_FragColor = vec4(uColor, 1.0);
+  #endif
   #include <colorspace_fragment>
 }`;
 
@@ -99,7 +115,7 @@ const kNearer = 4e-6;
 const materials = new Map<string, ShaderMaterial>();
 
 function materialFor({ color, width, isOnTop = false, order = 0 }: LineLook): ShaderMaterial {
-  const key = `${color} ${width} ${String(isOnTop)} ${order}`;
+  const key = `${color ?? 'tinted'} ${width} ${String(isOnTop)} ${order}`;
   const known = materials.get(key);
   if (known) return known;
   const made = new ShaderMaterial({
@@ -107,8 +123,9 @@ function materialFor({ color, width, isOnTop = false, order = 0 }: LineLook): Sh
     fragmentShader: kFragmentShader,
     side: DoubleSide,
     depthTest: !isOnTop,
+    ...(color === undefined && { defines: { TINTED: '' } }),
     uniforms: {
-      uColor: { value: new Color(color) },
+      ...(color !== undefined && { uColor: { value: new Color(color) } }),
       uHalf: { value: width / 2 },
       uNearer: { value: kNearer * order },
       uSize: { value: new Vector2() },
@@ -123,9 +140,12 @@ export class FatLines {
   readonly object = new Group();
   private lines: Mesh<BufferGeometry, ShaderMaterial>[] = [];
 
-  put(segments: Float32Array, look: LineLook): void {
+  /** @param tints `[3 segments]` the colour of each, where the look has none */
+  put(segments: Float32Array, look: LineLook, tints?: Float32Array): void {
     if (segments.length === 0) return;
-    const line = new Mesh(quadsOf(segments), materialFor(look));
+    const quads = quadsOf(segments);
+    if (tints) quads.setAttribute('tint', new BufferAttribute(fourTimes(tints), 3));
+    const line = new Mesh(quads, materialFor(look));
     line.frustumCulled = false;
     line.renderOrder = look.order ?? 0;
     line.onBeforeRender = (renderer) => {
@@ -141,6 +161,13 @@ export class FatLines {
       line.geometry.dispose();
     }
   }
+}
+
+/** Triples, each four times in a row. */
+function fourTimes(triples: Float32Array): Float32Array {
+  const all = new Float32Array(4 * triples.length);
+  for (let i = 0; i < all.length; i++) all[i] = triples[3 * ((i / 12) | 0) + (i % 3)];
+  return all;
 }
 
 function quadsOf(segments: Float32Array): BufferGeometry {

@@ -2,7 +2,7 @@
 import { fromPlane } from '../shapes/plane.ts';
 import { subtract } from '../shapes/vec.ts';
 import { handlesAt, kindOf } from '../state/document.ts';
-import { chosen, dispatch, endGesture, group, isLive, itemBy, selection } from '../state/store.ts';
+import { chosen, dispatch, endGesture, group, isLive, isMovable, itemBy, selection } from '../state/store.ts';
 import type { Stage } from './stage.ts';
 
 /** A key that is held down makes one step of the history: what it has moved by so far, in key steps. */
@@ -18,7 +18,7 @@ export function nudge(stage: Stage, right: number, up: number, isRepeat: boolean
   const at = chosen.peek();
   const item = at && itemBy(at.item);
   const id = group.peek()?.id;
-  if (!viewpoint || !item || id === undefined) return false;
+  if (!viewpoint || !item || id === undefined || !isMovable(at)) return false;
   const goesOn = isRepeat && isLive.peek();
   if (!goesOn) held = { name: `nudge ${++count}`, right: 0, up: 0 };
   held = { ...held, right: held.right + right, up: held.up + up };

@@ -21,6 +21,7 @@ import {
   group,
   hover,
   isChosen,
+  isMovable,
   isSamePlace,
   keyOf,
   selection,
@@ -183,7 +184,7 @@ export class Tools {
     // A part that is chosen as a whole is dragged wherever it is taken, handles included.
     const whole: Place = { ...hit, handle: null };
     const taken = isChosen(whole) ? whole : hit;
-    if (taken.handle === null && !isChosen(taken) && !event.shiftKey) return null;
+    if (!event.shiftKey && (!isMovable(taken) || (taken.handle === null && !isChosen(taken)))) return null;
     const frame = this.stage.dragPlane(point);
     const grip = this.meet(frame, event);
     if (grip === null) {
@@ -242,7 +243,7 @@ export class Tools {
         break;
       }
       case 'pointing':
-        if (distanceOf(this.at(event), this.at(state.press)) < kClickSlop) break;
+        if (distanceOf(this.at(event), this.at(state.press)) < kClickSlop || !isMovable(state.hit)) break;
         this.gestures++;
         if (state.press.shiftKey && !isChosen(state.hit)) choose(...selection.peek(), state.hit);
         this.enter({ name: 'dragging', press: state.press, frame: state.frame, grip: state.grip });
@@ -262,7 +263,8 @@ export class Tools {
     const under = (isFree && this.pick(event)?.place) || null;
     if (!isSamePlace(under, hover.peek())) hover.value = under;
     const { dataset } = this.stage.view.canvas;
-    dataset.over = under === null ? '' : under.handle !== null || isChosen(under) ? 'vertex' : 'curve';
+    const isHeld = under !== null && (under.handle !== null || isChosen(under)) && isMovable(under);
+    dataset.over = under === null ? '' : isHeld ? 'vertex' : 'curve';
   }
 
   private drag(event: PointerEvent): void {

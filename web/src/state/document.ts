@@ -38,6 +38,8 @@ export interface Place {
 /** What the document knows of a kind of object. Shapes are never changed. */
 export interface Kind<S> {
   readonly name: string;
+  /** Its parts can be chosen, but are neither moved nor removed. */
+  readonly isFixed?: boolean;
   boxOf(shape: S): Box;
   /** `[parts + 1]` the first handle of each part, and the number of all. */
   partStarts(shape: S): ArrayLike<number>;

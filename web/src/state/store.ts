@@ -74,6 +74,12 @@ export const isChosen = (place: Place): boolean => selection.peek().some((each) 
 /** For sets and maps of places. */
 export const keyOf = ({ item, part, handle }: Place): string => `${item} ${part} ${handle ?? ''}`;
 
+/** Whether what is at a place can be moved and removed. */
+export function isMovable({ item: id }: Place): boolean {
+  const item = itemBy(id);
+  return item !== undefined && !kindOf(item).isFixed;
+}
+
 export function itemBy(id: Id): Item | undefined {
   return group.peek()?.items.find((item) => item.id === id);
 }

@@ -1,5 +1,6 @@
 // What the film adds to the scene: the surface between the curves, growing in, and the vertices that were put on them.
 import { computed, effect, signal } from '@preact/signals';
+import type { SmoothSurface } from 'soapfilm';
 import { Dots } from '../../scene/dots.ts';
 import type { ModeScene } from '../../scene/mode_scene.ts';
 import { placementFor } from '../../scene/placement.ts';
@@ -9,6 +10,7 @@ import { prefersReducedMotion } from '../../scene/viewpoint.ts';
 import { boundsOf } from '../../shapes/vec.ts';
 import { boxOfGroup } from '../../state/document.ts';
 import { shown } from '../../state/store.ts';
+import { smoothed } from './smoothing.ts';
 import { isStale, surface, type Surface } from './spanning.ts';
 
 const kGrowMs = 1400;
@@ -40,7 +42,10 @@ export class FilmScene {
       view.invalidate();
     });
     effect(() => {
-      if (drawn.value) this.mesh.setSurface(drawn.value.span, scene.placement.value);
+      if (drawn.value === null) return;
+      const better = smoothed.value?.of === drawn.value ? smoothed.value.surface : null;
+      this.mesh.setSurface(better ? inOrder(better) : drawn.value.span, scene.placement.value);
+      view.invalidate();
     });
     effect(() => {
       this.show(surface.value);
@@ -99,3 +104,10 @@ export class FilmScene {
     this.stage.view.invalidate();
   }
 }
+
+/** Triangles that grow in as they are listed. */
+const inOrder = ({ positions, triangles }: SmoothSurface) => ({
+  positions,
+  triangles,
+  order: Uint32Array.from({ length: triangles.length / 3 }, (_, t) => t),
+});

@@ -15,7 +15,7 @@ export interface Example {
 }
 
 const weightsOf = (id: string) => (kPresets.find((preset) => preset.id === id) ?? kPresets[0]).weights;
-const kSmooth: FilmSettings = { weights: weightsOf('smooth'), objective: 'sum', candidates: 'auto' };
+const kSmooth: FilmSettings = { weights: weightsOf('smooth'), objective: 'sum', candidates: 'auto', smooth: 'none' };
 
 /** A closed curve of `count` vertices at t = 0 … 2π. */
 const closed = (count: number, at: (t: number) => Point): Point[] =>

@@ -35,6 +35,13 @@ const kObjectives: readonly Choice<FilmSettings['objective']>[] = [
   { value: 'worst-dihedral', label: 'Worst angle', title: 'The least largest angle between neighbours; ties by the sum' },
 ];
 
+const kSmooths: readonly Choice<FilmSettings['smooth']>[] = [
+  { value: 'none', label: 'As is', title: 'The triangles as they were spanned' },
+  { value: 'soap-film', label: 'Film', title: 'The surface of least area between the curves, as a soap film is' },
+  { value: 'thin-plate', label: 'Plate', title: 'The surface that bends least' },
+  { value: 'curvature', label: 'Fair', title: 'The surface whose curvature varies least' },
+];
+
 const kWeights: readonly { key: keyof RelativeWeights; label: string; title: string }[] = [
   { key: 'area', label: 'Area', title: 'Cost of the area, in units of the squared size of all curves' },
   { key: 'perimeter', label: 'Perimeter', title: 'Cost of the triangles’ perimeters, in units of the size of all curves' },
@@ -107,6 +114,7 @@ function Film() {
           setFilm({ candidates });
         }}
       />
+      <Segments label="Then" choices={kSmooths} value={settings.smooth} onChange={(smooth) => { setFilm({ smooth }); }} />
       {!auto.value && (
         <button
           type="button"

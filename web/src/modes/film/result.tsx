@@ -6,6 +6,7 @@ import { Icon } from '../../app/icons.tsx';
 import { Row } from '../../app/panel_parts.tsx';
 import type { WorkState } from '../../state/work.ts';
 import { film, setFilm } from './film.ts';
+import { smoothed, smoothing } from './smoothing.ts';
 import { isStale, none, spanning, surface, type Bounds } from './spanning.ts';
 
 type StateIn<Phase> = Extract<WorkState<Bounds>, { readonly phase: Phase }>;
@@ -33,6 +34,7 @@ export function Result() {
       {state.phase === 'cancelled' && <Cancelled />}
       {state.phase === 'idle' && <p class="muted">Nothing to span yet. Draw a closed curve, open a file, or take one from the gallery.</p>}
       {span && <Figures span={span} faded={isStale.value} />}
+      <SmoothFigures />
     </Section>
   );
 }
@@ -171,6 +173,28 @@ function Figures({ span, faded }: { span: Span; faded: boolean }) {
         <Row name="Memory" value={bytes(stats.peakBytes)} />
         <Row name="Time" value={seconds(stats.seconds)} />
         {inserted > 0 && <Row name="Inserted" value={whole(inserted)} />}
+      </dl>
+    </div>
+  );
+}
+
+/** What smoothing came to. */
+function SmoothFigures() {
+  const state = smoothing.state.value;
+  const found = smoothed.value;
+  if (film.value.settings.smooth === 'none' || surface.value === null) return null;
+  if (state.phase === 'failed') return <p class="message error">{state.message}</p>;
+  if (found === null) return <p class="muted">Smoothing…</p>;
+  const { area, collapsed, triangles } = found.surface;
+  return (
+    <div class="figures">
+      {collapsed.length > 0 && (
+        <p class="message">There is no soap film between these curves: its neck has shrunk to a thread. Move them closer.</p>
+      )}
+      <dl>
+        <Row name="Smoothed to" value={whole(triangles.length / 3)} />
+        <Row name="Its area" value={figure(area)} />
+        <Row name="Smoothing" value={seconds(found.seconds)} />
       </dl>
     </div>
   );

@@ -22,6 +22,7 @@ import { exposeFilm } from './inspection.ts';
 import { FilmPanel } from './panel.tsx';
 import { figure } from './result.tsx';
 import { areFilmSettings, curveOf, curvesOf, fromLoopSet, kDefaultSettings, toLoopSet, type FilmSettings } from './settings.ts';
+import { smoothed } from './smoothing.ts';
 import { isStale, none, spanning, surface } from './spanning.ts';
 
 /** A vertex nearer to a plane lies in it, in radii of what is in view. */
@@ -186,7 +187,8 @@ function saveSurface(): void {
     return;
   }
   const { name } = film.peek();
-  save(`${fileStem(name)}.obj`, 'model/obj', async () => (await fetchFormats()).formatObj(present.span, { name }));
+  const better = smoothed.peek()?.of === present ? smoothed.peek() : null;
+  save(`${fileStem(name)}.obj`, 'model/obj', async () => (await fetchFormats()).formatObj(better?.surface ?? present.span, { name }));
 }
 
 function saveCurves(format: 'curve' | 'json'): void {

@@ -1,5 +1,5 @@
 // What a film should be: the settings of a group of curves, and the library's options for them.
-import type { CandidateSpace, LoopSet, SpanOptions } from 'soapfilm';
+import type { CandidateSpace, LoopSet, SmoothOptions, SpanOptions } from 'soapfilm';
 import { linesOf, pointAt, pointCount, type Lines } from '../../shapes/lines.ts';
 import { boundsOf } from '../../shapes/vec.ts';
 import { boxOfGroup, isSame, type Group } from '../../state/document.ts';
@@ -18,7 +18,11 @@ export interface FilmSettings {
   readonly weights: RelativeWeights;
   readonly objective: 'sum' | 'worst-dihedral';
   readonly candidates: CandidateSpace;
+  /** What the surface becomes between its curves, once it is spanned. */
+  readonly smooth: SmoothKind | 'none';
 }
+
+export type SmoothKind = NonNullable<SmoothOptions['kind']>;
 
 /** Curves and the settings of the film between them. */
 export type FilmGroup = Group<FilmSettings>;
@@ -56,14 +60,16 @@ export const kDefaultSettings: FilmSettings = {
   weights: kPresets[0].weights,
   objective: 'sum',
   candidates: 'auto',
+  smooth: 'none',
 };
 
 /** Whether a span can be asked for with such settings. */
-export function areFilmSettings({ weights, objective, candidates }: FilmSettings): boolean {
+export function areFilmSettings({ weights, objective, candidates, smooth }: FilmSettings): boolean {
   const all = [weights.area, weights.perimeter, weights.dihedral];
   return (
     all.every((weight) => weight >= 0 && weight < Infinity) &&
     all.some((weight) => weight > 0) &&
+    ['none', 'soap-film', 'thin-plate', 'curvature'].includes(smooth) &&
     ['sum', 'worst-dihedral'].includes(objective) &&
     ['auto', 'delaunay', 'near', 'all'].includes(candidates)
   );

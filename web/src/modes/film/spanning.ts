@@ -1,6 +1,7 @@
 // Spanning the curves in the worker, and what came of it.
 import { computed, signal } from '@preact/signals';
 import type { NoSpan, Span, SpaceUsed } from 'soapfilm';
+import { isSame } from '../../state/document.ts';
 import { createWork } from '../../state/work.ts';
 import { film, kMode } from './film.ts';
 import { curvesOf, isReshaped, spanOptions, toLoopSet, type FilmGroup } from './settings.ts';
@@ -25,13 +26,25 @@ export const none = signal<{ readonly reason: string; readonly candidates: Space
 /** Whether changes are spanned without being asked. */
 export const auto = signal(true);
 
-/** The curves, if there are any. */
-const input = computed(() => (film.value.items.length > 0 ? film.value : null));
+/** The curves, if there are any: the same object while only what comes after the span is another. */
+let spannable: FilmGroup | null = null;
+const input = computed(() => {
+  const now = film.value;
+  if (now.items.length === 0) spannable = null;
+  else if (spannable === null || !spansAlike(spannable, now)) spannable = now;
+  return spannable;
+});
+
+/** Whether two groups have the same span. */
+function spansAlike(a: FilmGroup, b: FilmGroup): boolean {
+  const { weights, objective, candidates } = b.settings;
+  return a.items === b.items && isSame({ ...a.settings, weights, objective, candidates }, a.settings);
+}
 
 /** Whether the surface shown spans other curves or settings than the document's. */
 export const isStale = computed(() => {
   const of = surface.value?.of;
-  return of !== undefined && (of.items !== film.value.items || of.settings !== film.value.settings);
+  return of !== undefined && !spansAlike(of, film.value);
 });
 
 /** Surfaces on the way are shown after this long: before that they would only flicker. */

@@ -1,0 +1,83 @@
+// Surfaces smoothed between their boundary: against the ones that are known.
+#include "mesh/smooth_surface.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "mesh/bvh.h"
+#include "support/meshes.h"
+
+using namespace sf;
+using namespace sftest;
+
+namespace {
+
+SmoothSurface smoothed(const TestMesh& mesh, const SmoothOptions& options) {
+  Work work;
+  SmoothSurface result;
+  CHECK(smoothSurface(mesh.view(), options, work, result).ok());
+  CHECK(work.used() == 0);
+  REQUIRE(result.boundary.size() <= result.positions.size() / 3);
+  for (size_t i = 0; i < result.boundary.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      CHECK(result.positions[3 * i + k] == mesh.positions[3 * result.boundary[i] + k]);
+  for (const double x : result.positions) CHECK(std::isfinite(x));
+  return result;
+}
+
+Status statusOf(const TestMesh& mesh) {
+  Work work;
+  SmoothSurface result;
+  return smoothSurface(mesh.view(), {}, work, result).status;
+}
+
+}  // namespace
+
+TEST_CASE("smoothSurface: between two rings a catenoid, and a thread where there is none") {
+  SmoothOptions options;
+  options.maxNewVertices = 1500;
+  const double height = 0.8;
+  const SmoothSurface film = smoothed(tubeMesh(96, 6, height), options);
+  CHECK(film.isMinimal);
+  CHECK(film.collapsed.empty());
+  // r = c cosh(z / c) with r = 1 at the rings.
+  double low = 0.6, high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double c = (low + high) / 2;
+    (c * std::cosh(height / 2 / c) < 1 ? low : high) = c;
+  }
+  double most = 0;
+  for (size_t v = film.boundary.size(); v < film.positions.size() / 3; ++v) {
+    const Vec3 p = pointAt(film.positions, uint32_t(v));
+    most = std::fmax(most, std::fabs(std::hypot(p.x, p.y) - low * std::cosh(p.z / low)));
+  }
+  CHECK(most < 3e-3);
+  CHECK_FALSE(smoothed(tubeMesh(48, 8, 2.0), options).collapsed.empty());
+}
+
+TEST_CASE("smoothSurface: over a flat boundary all kinds are flat") {
+  TestMesh sheet = saddleMesh(8, 0);
+  // A bump in the middle.
+  for (uint32_t v = 0; v < sheet.vertexCount(); ++v) {
+    double* p = sheet.positions.data() + 3 * v;
+    if (std::fabs(p[0]) < 0.9 && std::fabs(p[1]) < 0.9) p[2] = 0.3;
+  }
+  for (const SurfaceKind kind :
+       {SurfaceKind::SoapFilm, SurfaceKind::ThinPlate, SurfaceKind::Curvature}) {
+    CAPTURE(int(kind));
+    SmoothOptions options;
+    options.kind = kind, options.density = 0;
+    const SmoothSurface surface = smoothed(sheet, options);
+    CHECK(surface.area == doctest::Approx(4).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("smoothSurface: what is no such surface is a BadMesh, and nothing at all is nothing") {
+  CHECK(statusOf(sphereMesh(1)) == Status::BadMesh);
+  TestMesh twice = saddleMesh(3, 0.2);
+  twice.addFace(twice.faces[0], twice.faces[1], twice.faces[2]);
+  CHECK(statusOf(twice) == Status::BadMesh);
+  CHECK(statusOf(moebiusMesh(12)) == Status::BadMesh);
+  CHECK(statusOf(TestMesh{}) == Status::Ok);
+}

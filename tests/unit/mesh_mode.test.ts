@@ -1,0 +1,108 @@
+// The mode of meshes: its examples, which loops bound one hole, and patches as part of a mesh.
+import { fillHoles, findHoles, load } from 'soapfilm';
+import { beforeAll, describe, expect, test } from 'vitest';
+import { kExamples } from '../../web/src/modes/mesh/examples.ts';
+import { holesOf, join, split } from '../../web/src/modes/mesh/grouping.ts';
+import { meshKind } from '../../web/src/modes/mesh/mesh_kind.ts';
+import { areMeshSettings, kSettings, type MeshShape } from '../../web/src/modes/mesh/settings.ts';
+import { loopAt, noteRims, placeOf, rimsOf, wholeOf } from '../../web/src/modes/mesh/whole.ts';
+import { countTwins, weld } from '../../web/src/modes/mesh/weld.ts';
+import { wordsForDefect } from '../../web/src/modes/mesh/wording.ts';
+import { newItem } from '../../web/src/state/document.ts';
+
+beforeAll(() => load({ parts: ['meshes'] }));
+
+describe('examples', () => {
+  test.each(kExamples.map(({ title, shape }) => [title, shape] as const))('%s: has holes, islands and no defects, and is filled', (_, shape) => {
+    const mesh = shape();
+    const { groups, defects } = findHoles(mesh);
+    expect(defects).toEqual([]);
+    expect(groups.some(({ why }) => why === 'island')).toBe(true);
+    const { holes } = fillHoles(mesh);
+    expect(holes.map(({ status }) => status)).toEqual(groups.map(({ isOpenRim }) => (isOpenRim ? 'open-rim' : 'filled')));
+  });
+});
+
+const [torus] = kExamples;
+
+describe('holes', () => {
+  test('split, joined, and as found where nothing was said', () => {
+    const report = findHoles(torus.shape());
+    const found = holesOf(report, []);
+    expect(found.map(({ loops }) => loops)).toEqual(report.groups.map(({ loops }) => loops));
+    const hole = found.findIndex(({ loops }) => loops.length === 3);
+    const apart = split([], found[hole]);
+    const after = holesOf(report, apart);
+    expect(after).toHaveLength(found.length + 2);
+    expect(after.flatMap(({ loops }) => loops).sort()).toEqual(found.flatMap(({ loops }) => loops).sort());
+    const parts = after.filter(({ loops }) => found[hole].loops.includes(loops[0]));
+    const again = holesOf(report, join(apart, parts, report));
+    expect(again.map(({ loops }) => [...loops].sort())).toEqual(found.map(({ loops }) => [...loops].sort()));
+    expect(again[hole].loops[0]).toBe(found[hole].loops[0]);
+    expect(again[hole].why).toBe('given');
+  });
+
+  test('loops that there are not: are passed over', () => {
+    const report = findHoles(torus.shape());
+    expect(holesOf(report, [[999]])).toEqual(holesOf(report, []));
+    expect(holesOf(report, [[0, 999], [0]])).toHaveLength(holesOf(report, [[0]]).length);
+  });
+});
+
+describe('several meshes', () => {
+  test('are worked on as one; each has its own rims', () => {
+    const items = kExamples.map(({ shape }) => newItem(meshKind, shape()));
+    const whole = wholeOf(items);
+    const report = findHoles(whole);
+    expect(report.loops.length).toBe(items.reduce((sum, { shape }) => sum + findHoles(shape).loops.length, 0));
+    noteRims(whole, report);
+    report.loops.forEach(({ vertices }, loop) => {
+      const place = placeOf(whole, loop);
+      if (place === null) throw new Error(`Loop ${loop} is nowhere.`);
+      expect(loopAt(whole, place)).toBe(loop);
+      const k = items.findIndex(({ id }) => id === place.item);
+      const rims = rimsOf(items[k].shape);
+      expect(Array.from(rims.vertices.subarray(rims.starts[place.part], rims.starts[place.part + 1]), (v) => v + whole.starts[k])).toEqual([...vertices]);
+    });
+  });
+});
+
+describe('the kind', () => {
+  test('what was saved: is read if it is a mesh', () => {
+    const shape: MeshShape = { positions: new Float32Array(9), faces: new Uint32Array([0, 1, 2]) };
+    expect(meshKind.read(structuredClone(shape))).toEqual(shape);
+    for (const saved of [
+      null,
+      {},
+      { ...shape, faces: [0, 1, 2] },
+      { ...shape, faces: new Uint32Array([0, 1, 3]) },
+      { ...shape, faces: new Uint32Array([0, 1]) },
+      { ...shape, positions: new Float32Array([NaN, ...new Float32Array(8)]) },
+    ]) {
+      expect(meshKind.read(saved)).toBeNull();
+    }
+  });
+
+  test('settings: those of another version are told', () => {
+    expect(areMeshSettings(kSettings)).toBe(true);
+    expect(areMeshSettings({ ...kSettings, filled: ['a'] as unknown as number[] })).toBe(false);
+    expect(areMeshSettings({ ...kSettings, groups: [5] as unknown as number[][] })).toBe(false);
+    expect(areMeshSettings({ ...kSettings, density: 9 })).toBe(false);
+  });
+});
+
+test('defects: in words, one or many', () => {
+  const [faces, none] = [new Uint32Array(2), new Uint32Array()];
+  expect(wordsForDefect({ kind: 'duplicate-face', faces, edges: none, vertices: none })).toBe('2 faces are there twice: kept as they are.');
+  expect(wordsForDefect({ kind: 'unused-vertex', faces: none, edges: none, vertices: new Uint32Array(1) })).toBe('1 vertex is in no face: kept as it is.');
+});
+
+test('welding: seams go, faces that fold to nothing go, all else stays in order', () => {
+  const soup: MeshShape = {
+    positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, -0, 1, 0]),
+    faces: new Uint32Array([0, 1, 2, 3, 4, 5, 1, 3, 4]),
+  };
+  expect(countTwins(soup, [0, 1, 2, 3, 4, 5, 5])).toBe(2);
+  expect(weld(soup)).toEqual({ positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0]), faces: new Uint32Array([0, 1, 2, 1, 3, 2]) });
+  expect(Object.is(soup.positions[15], -0)).toBe(true);
+});

@@ -1,0 +1,208 @@
+// sf_find_holes, sf_fill_holes: refuse input that has no meaning to the core, call it, pack the results.
+#include "abi/host_work.h"
+#include "abi/result.h"
+#include "mesh/fill.h"
+#include "mesh/weld.h"
+
+namespace {
+
+SF_TIE(isTied, sf::GroupKind, SF_GROUP_KIND_CHOICES)
+SF_TIE(isTied, sf::DefectKind, SF_DEFECT_KIND_CHOICES)
+SF_TIE(isTied, sf::Fairing, SF_FAIRING_CHOICES)
+SF_TIE(isTied, sf::FillStatus, SF_FILL_STATUS_CHOICES)
+SF_TIE(isTied, sf::FillReason, SF_FILL_REASON_CHOICES)
+
+/// The mesh, if it is one.
+sf::Outcome view(const double* positions, uint32_t vertexCount, const uint32_t* faces,
+                 uint32_t faceCount, sf::MeshView& mesh) {
+  if (faceCount >= 1u << 30 || vertexCount >= 1u << 30) return {sf::Status::TooLarge};
+  mesh = {{positions, 3 * size_t(vertexCount)}, {faces, 3 * size_t(faceCount)}};
+  const sf::MeshFault fault = sf::checkMesh(mesh);
+  if (fault.vertex != sf::kNone) return {sf::Status::NotFinite, sf::kNone, fault.vertex};
+  if (fault.face != sf::kNone) return {sf::Status::BadMesh, sf::kNone, fault.face};
+  return {};
+}
+
+/// What finding and filling begin with.
+struct Found {
+  sf::MeshView mesh;
+  sf::Adjacency adjacency;
+  sf::Rims rims;
+};
+
+sf::Outcome find(const double* positions, uint32_t vertexCount, const uint32_t* faces,
+                 uint32_t faceCount, sf::Work& work, sf::Charge& charge, Found& found) {
+  const sf::Outcome outcome = view(positions, vertexCount, faces, faceCount, found.mesh);
+  if (!outcome.ok()) return outcome;
+  if (!sf::buildAdjacency(found.mesh, work, charge, found.adjacency) ||
+      !sf::findRims(found.mesh, found.adjacency, work, charge, found.rims))
+    return {work.status()};
+  return {};
+}
+
+SfResult* pack(Found&& found, sf::Grouping&& grouping) {
+  std::vector<SfLoopFacts> loops;
+  for (uint32_t i = 0; i < found.rims.count(); ++i) {
+    const sf::Rim& rim = found.rims.rims[i];
+    loops.push_back({rim.length, rim.diameter, grouping.openness[i], double(rim.component)});
+  }
+  std::vector<SfGroupFacts> groups;
+  for (uint32_t g = 0; g < grouping.count(); ++g)
+    groups.push_back(
+        {double(grouping.kinds[g]), grouping.scores[g], double(grouping.isOpenRim[g])});
+  std::vector<SfDefectCounts> defects;
+  std::vector<uint32_t> places;
+  for (const sf::Defect& defect : found.adjacency.defects) {
+    defects.push_back({uint32_t(defect.kind), uint32_t(defect.faces.size()),
+                       uint32_t(defect.edges.size()), uint32_t(defect.vertices.size())});
+    for (const auto* list : {&defect.faces, &defect.edges, &defect.vertices})
+      places.insert(places.end(), list->begin(), list->end());
+  }
+  auto* result = new SfResult(SfHolesArrayCount);
+  result->put<SfHoles_loopStarts>(std::move(found.rims.starts));
+  result->put<SfHoles_loopVertices>(std::move(found.rims.vertices));
+  result->put<SfHoles_loopFacts>(std::move(loops));
+  result->put<SfHoles_groupStarts>(std::move(grouping.starts));
+  result->put<SfHoles_groupLoops>(std::move(grouping.rims));
+  result->put<SfHoles_groupFacts>(std::move(groups));
+  result->put<SfHoles_defects>(std::move(defects));
+  result->put<SfHoles_defectPlaces>(std::move(places));
+  return result;
+}
+
+bool isValid(const SfPatchSettings& s) {
+  const int kGiven = int(sf::Space::Given);
+  return !(s.areaWeight < 0) && s.perimeterWeight >= 0 && s.dihedralWeight >= 0 &&
+         sf::isChoice(s.space, kGiven) && sf::isChoice(s.fairing, SF_COUNT(SF_FAIRING_CHOICES)) &&
+         s.density >= 0 && s.density < 1e6 && s.maxNewVertices >= 0 && s.crease >= 0 &&
+         s.crease < 4 && sf::isChoice(s.inFloats, 2);
+}
+
+sf::FillOptions optionsOf(const SfPatchSettings& s) {
+  sf::FillOptions options;
+  options.areaWeight = s.areaWeight;
+  options.perimeterWeight = s.perimeterWeight;
+  options.dihedralWeight = s.dihedralWeight;
+  options.space = sf::Space(int(s.space));
+  options.fairing = sf::Fairing(int(s.fairing));
+  options.density = s.density;
+  options.crease = s.crease;
+  options.inFloats = s.inFloats == 1;
+  const double most = 4294967295.0;
+  options.maxNewVertices = s.maxNewVertices < most ? uint32_t(s.maxNewVertices) : sf::kNone;
+  return options;
+}
+
+/// Whether each group has loops, and no loop is named twice.
+bool areGroups(const uint32_t* starts, uint32_t count, const uint32_t* loops, uint32_t loopCount) {
+  if (!sf::isRising(starts, count)) return false;
+  std::vector<uint8_t> isNamed(loopCount);
+  for (uint32_t g = 0; g < count; ++g)
+    if (starts[g] == starts[g + 1]) return false;
+  for (uint32_t i = 0; i < starts[count]; ++i) {
+    if (loops[i] >= loopCount || isNamed[loops[i]]) return false;
+    isNamed[loops[i]] = 1;
+  }
+  return true;
+}
+
+SfFilledFacts factsOf(const sf::FilledHole& hole) {
+  SfFilledFacts facts{};
+  facts.status = double(hole.status);
+  facts.reason = double(hole.reason);
+  facts.cost = hole.cost;
+  facts.lowerBound = hole.lowerBound;
+  facts.optimal = hole.optimal;
+  facts.rimAngleBefore = hole.rimAngleBefore;
+  facts.rimAngleAfter = hole.rimAngleAfter;
+  facts.fairnessUsed = hole.fairnessUsed;
+  facts.movedLess = hole.movedLess;
+  facts.firstFace = hole.firstFace;
+  facts.endFace = hole.endFace;
+  facts.pairs = double(hole.intersections.size());
+  return facts;
+}
+
+}  // namespace
+
+extern "C" SfStatus sf_find_holes(const double* positions, uint32_t vertexCount,
+                                  const uint32_t* faces, uint32_t faceCount, double maxBytes,
+                                  SfPlace* where, SfResult** result) {
+  *result = nullptr;
+  if (!(maxBytes >= 0)) return sf::endWith({sf::Status::BadOption}, where);
+  sf::Work work = sf::hostWork(maxBytes);
+  sf::Charge charge(work);
+  Found found;
+  sf::Outcome outcome = find(positions, vertexCount, faces, faceCount, work, charge, found);
+  sf::Grouping grouping;
+  if (outcome.ok() &&
+      !sf::groupRims(found.mesh, found.adjacency, found.rims, work, charge, grouping))
+    outcome = {work.status()};
+  if (outcome.ok()) *result = pack(std::move(found), std::move(grouping));
+  return sf::endWith(outcome, where);
+}
+
+extern "C" SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount,
+                                  const uint32_t* faces, uint32_t faceCount,
+                                  const uint32_t* groupStarts, uint32_t groupCount,
+                                  const uint32_t* groupLoops, const SfPatchSettings* settings,
+                                  double maxBytes, SfPlace* where, SfResult** result) {
+  *result = nullptr;
+  bool isAllowed = maxBytes >= 0;
+  for (uint32_t g = 0; isAllowed && g < groupCount; ++g) isAllowed = isValid(settings[g]);
+  if (!isAllowed) return sf::endWith({sf::Status::BadOption}, where);
+  sf::Work work = sf::hostWork(maxBytes);
+  sf::Charge charge(work);
+  Found found;
+  sf::Outcome outcome = find(positions, vertexCount, faces, faceCount, work, charge, found);
+  if (outcome.ok() && !areGroups(groupStarts, groupCount, groupLoops, found.rims.count()))
+    outcome = {sf::Status::BadOption};
+  sf::HoleFiller filler(found.mesh, found.adjacency, found.rims, work);
+  if (outcome.ok() && groupCount > 0 && !filler.prepare()) outcome = {work.status()};
+  std::vector<SfFilledFacts> facts;
+  std::vector<uint32_t> pairs;
+  for (uint32_t g = 0; outcome.ok() && g < groupCount; ++g) {
+    work.beginStage(double(g) / groupCount, double(g + 1) / groupCount);
+    sf::FilledHole hole;
+    const uint32_t first = groupStarts[g];
+    outcome.status = filler.fill({groupLoops + first, size_t(groupStarts[g + 1] - first)},
+                                 optionsOf(settings[g]), hole);
+    facts.push_back(factsOf(hole));
+    for (const sf::FacePair pair : hole.intersections)
+      pairs.insert(pairs.end(), {pair.first, pair.second});
+  }
+  if (outcome.ok()) {
+    *result = new SfResult(SfFillArrayCount);
+    const auto copy = [](auto view) {
+      return std::vector<std::remove_const_t<std::remove_pointer_t<decltype(view.data())>>>(
+          view.begin(), view.end());
+    };
+    (*result)->put<SfFill_positions>(copy(filler.newPositions()));
+    (*result)->put<SfFill_faces>(copy(filler.newFaces()));
+    (*result)->put<SfFill_holes>(std::move(facts));
+    (*result)->put<SfFill_pairs>(std::move(pairs));
+  }
+  return sf::endWith(outcome, where);
+}
+
+extern "C" SfStatus sf_weld_mesh(const double* positions, uint32_t vertexCount,
+                                 const uint32_t* faces, uint32_t faceCount, double radius,
+                                 double maxBytes, SfPlace* where, SfResult** result) {
+  *result = nullptr;
+  if (!(maxBytes >= 0) || !(radius >= 0 && std::isfinite(radius)))
+    return sf::endWith({sf::Status::BadOption}, where);
+  sf::Work work = sf::hostWork(maxBytes);
+  sf::Charge charge(work);
+  sf::MeshView mesh;
+  sf::Outcome outcome = view(positions, vertexCount, faces, faceCount, mesh);
+  sf::WeldedMesh welded;
+  if (outcome.ok() && !sf::weldVertices(mesh, radius, work, charge, welded))
+    outcome = {work.status()};
+  if (outcome.ok()) {
+    *result = new SfResult(SfWeldArrayCount);
+    (*result)->put<SfWeld_positions>(std::move(welded.positions));
+    (*result)->put<SfWeld_faces>(std::move(welded.faces));
+    (*result)->put<SfWeld_vertexMap>(std::move(welded.vertexMap));
+  }
+  return sf::endWith(outcome, where);
+}

@@ -1,0 +1,522 @@
+#include "mesh/fill.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/smooth_patch.h"
+#include "mesh/stitch.h"
+
+namespace sf {
+namespace {
+
+/// Rings of faces around a hole: as many as the smoothest fairing looks at, and one more.
+constexpr uint32_t kRings = 5;
+/// Rims up to this long are spanned among all triangles: beyond that Delaunay triangles do.
+constexpr uint32_t kMostForAll = 300;
+/// Angles along the rim below this are none.
+constexpr double kExact = 1e-3;
+/// More pairs of intersecting faces are not listed.
+constexpr size_t kMostPairs = 10000;
+
+FillReason reasonOf(Status status) {
+  switch (status) {
+    case Status::RepeatedVertex:
+      return FillReason::RepeatedVertex;
+    case Status::LoopsIntersect:
+      return FillReason::RimsIntersect;
+    case Status::TooLarge:
+      return FillReason::TooLarge;
+    default:
+      return FillReason::NoSurface;
+  }
+}
+
+bool endsWork(Status status) { return status == Status::OutOfMemory || status == Status::Stopped; }
+
+Vec3 normalOf(ArrayView<const double> positions, uint32_t a, uint32_t b, uint32_t c) {
+  const Vec3 p = pointAt(positions, a);
+  return cross(pointAt(positions, b) - p, pointAt(positions, c) - p);
+}
+
+/// Whether a surface that is wound along the first loop is wound along all of them.
+bool runsAlong(const LoopSet& loops, const std::vector<uint32_t>& triangles) {
+  size_t along = 0;
+  for (size_t t = 0; t < triangles.size(); t += 3)
+    for (int k = 0; k < 3; ++k) along += loops.next(triangles[t + k]) == triangles[t + (k + 1) % 3];
+  return along == loops.vertexCount();
+}
+
+}  // namespace
+
+/// A corner of the loops around a patch, and the edge from it to the next one.
+struct Corner {
+  uint32_t vertex;        // of the filled mesh
+  uint32_t edge = kNone;  // the rim edge that begins there, or kNone
+};
+
+struct HoleFiller::Hole {
+  std::vector<Corner> corners;     // loop after loop, as faces that fill them run
+  std::vector<uint32_t> starts;    // [k+1] in `corners`
+  double crease = 0;               // of a part: the angle of the creases around it
+  bool crossesSeam = false;        // one of its rims does
+  bool isPart = false;             // between creases, which bound what is around it as well
+  std::vector<uint32_t> vertices;  // of the filled mesh: the fixed vertices, corners first
+  LocalSurface surface;            // fixed vertices as in `vertices`
+
+  /// The corner after each.
+  std::vector<uint32_t> nextCorners() const {
+    std::vector<uint32_t> next(corners.size());
+    for (size_t l = 0; l + 1 < starts.size(); ++l)
+      for (uint32_t i = starts[l]; i < starts[l + 1]; ++i)
+        next[i] = i + 1 < starts[l + 1] ? i + 1 : starts[l];
+    return next;
+  }
+  /// Whether a corner of a part with one loop is where another part begins.
+  bool isBetween(uint32_t corner) const {
+    const size_t before = corner > 0 ? corner - 1 : corners.size() - 1;
+    return corners[corner].edge == kNone || corners[before].edge == kNone;
+  }
+};
+
+HoleFiller::HoleFiller(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims,
+                       Work& work)
+    : mesh_(mesh), adjacency_(adjacency), rims_(rims), work_(work), charge_(work), tree_(work) {}
+
+bool HoleFiller::prepare() {
+  const size_t n = mesh_.positions.size() / 3, m = mesh_.faces.size() / 3;
+  if (!reserve(fanStarts_, n + 1, charge_) || !reserve(fans_, 3 * m, charge_) ||
+      !reserve(local_, n, charge_) || !reserve(isOfTwoRims_, n, charge_))
+    return false;
+  fanStarts_.assign(n + 1, 0);
+  const auto counts = [&](size_t f) { return adjacency_.corners[3 * f] != kNone; };
+  for (size_t f = 0; f < m; ++f)
+    if (counts(f))
+      for (int k = 0; k < 3; ++k) ++fanStarts_[mesh_.faces[3 * f + k] + 1];
+  for (size_t v = 0; v < n; ++v) fanStarts_[v + 1] += fanStarts_[v];
+  fans_.assign(fanStarts_[n], 0);
+  std::vector<uint32_t> next(fanStarts_.begin(), fanStarts_.end() - 1);
+  for (size_t f = 0; f < m; ++f)
+    if (counts(f))
+      for (int k = 0; k < 3; ++k) fans_[next[mesh_.faces[3 * f + k]]++] = uint32_t(f);
+  local_.assign(n, kNone);
+  // How many rims there are at each vertex, up to two.
+  isOfTwoRims_.assign(n, 0);
+  for (const uint32_t v : rims_.vertices)
+    if (isOfTwoRims_[v] < 2) ++isOfTwoRims_[v];
+  for (uint8_t& count : isOfTwoRims_) count = count == 2;
+  return work_.tick(uint32_t(std::min<size_t>(20 * (n + m), 1u << 30))) &&
+         tree_.build(mesh_, 0, uint32_t(m));
+}
+
+bool HoleFiller::isInFace(uint32_t a, uint32_t b, uint32_t c) const {
+  if (a >= mesh_.positions.size() / 3) return false;
+  for (uint32_t i = fanStarts_[a]; i < fanStarts_[a + 1]; ++i) {
+    const uint32_t* f = mesh_.faces.data() + 3 * size_t(fans_[i]);
+    const auto has = [&](uint32_t v) { return f[0] == v || f[1] == v || f[2] == v; };
+    if (has(b) && (c == kNone || has(c))) return true;
+  }
+  return false;
+}
+
+/// Spans the rims. The triangles of the patch are wound as the faces that fill the hole are.
+Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& result) {
+  std::vector<Vec3> positions;
+  std::vector<double> normals;
+  for (const Corner& corner : hole.corners) {
+    positions.push_back(point(corner.vertex));
+    const Vec3 n = corner.edge == kNone ? Vec3{0, 0, 0} : rims_.normals[corner.edge];
+    const bool isKnown = dot(n, n) > 0;
+    for (const double x : {n.x, n.y, n.z}) normals.push_back(isKnown ? x : std::nan(""));
+  }
+  const std::vector<uint32_t>& starts = hole.starts;
+  const LoopSet loops({positions.data(), positions.size()}, {starts.data(), starts.size()});
+  SpanOptions span;
+  span.areaWeight = options.areaWeight;
+  span.perimeterWeight = options.perimeterWeight;
+  span.dihedralWeight = options.dihedralWeight;
+  span.boundaryNormals = normals;
+
+  // Wider spaces only where narrower ones hold nothing, or only a surface with vertices on the rim.
+  std::vector<Space> spaces{options.space};
+  if (options.space == Space::Auto) {
+    if (loops.loopCount() == 1 && loops.vertexCount() <= kMostForAll)
+      spaces = {Space::All};
+    else
+      spaces = {Space::Delaunay, Space::Near, Space::Auto};
+  }
+  Span found;
+  FillReason reason = FillReason::NoSurface;
+  for (const Space space : spaces) {
+    span.space = space;
+    const Outcome outcome = spanLoops(loops, span, work_, found);
+    if (endsWork(outcome.status)) return outcome.status;
+    if (outcome.status != Status::Ok) {
+      reason = reasonOf(outcome.status);
+      if (outcome.status != Status::TooLarge) break;
+      continue;
+    }
+    if (found.found && found.inserted.empty()) break;
+    reason = found.found ? FillReason::InsertedVertices : FillReason::NoSurface;
+    found.found = false;
+  }
+  if (!found.found) {
+    result.reason = reason;
+    return Status::Ok;
+  }
+  result.cost = found.cost, result.lowerBound = found.lowerBound, result.optimal = found.optimal;
+
+  // The triangle at the first edge tells which way round the surface is.
+  std::vector<uint32_t>& triangles = found.triangles;
+  const uint32_t second = loops.next(0);
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    bool isBackwards = false;
+    for (int k = 0; k < 3; ++k)
+      isBackwards |= triangles[t + k] == second && triangles[t + (k + 1) % 3] == 0;
+    if (!isBackwards) continue;
+    for (size_t i = 0; i < triangles.size(); i += 3) std::swap(triangles[i + 1], triangles[i + 2]);
+    break;
+  }
+  // Larger patches share no face with the mesh once chords are split.
+  const auto& corners = hole.corners;
+  if (corners.size() == 3 && isInFace(corners[0].vertex, corners[1].vertex, corners[2].vertex)) {
+    result.reason = FillReason::DuplicateFace;
+    return Status::Ok;
+  }
+  if (!hole.crossesSeam && !runsAlong(loops, triangles)) {
+    result.reason = FillReason::OpposedRims;
+    return Status::Ok;
+  }
+  hole.surface.triangles.insert(hole.surface.triangles.end(), triangles.begin(), triangles.end());
+  result.status = FillStatus::Filled;
+  return Status::Ok;
+}
+
+/// Whether an edge that is not of the rims is in the mesh already, or may be in another patch.
+bool HoleFiller::isTaken(uint32_t a, uint32_t b) const {
+  const uint32_t n = uint32_t(mesh_.positions.size() / 3);
+  if (a >= n || b >= n) return false;
+  return (isOfTwoRims_[a] && isOfTwoRims_[b]) || isInFace(a, b, kNone);
+}
+
+/// The same for the edges around a part of a hole, which cannot be split.
+bool HoleFiller::isBorderTaken(const Hole& hole) const {
+  const size_t n = hole.corners.size();
+  for (size_t i = 0; i < n; ++i)
+    if (hole.corners[i].edge == kNone &&
+        isTaken(hole.corners[i].vertex, hole.corners[(i + 1) % n].vertex))
+      return true;
+  return false;
+}
+
+/// Splits edges of the patch between vertices of the rims that the mesh has already, or that another patch may
+/// have, so that no edge gets more than two faces. The shape stays as it is.
+void HoleFiller::splitChords(Hole& hole, bool inFloats) {
+  LocalSurface& s = hole.surface;
+  const uint32_t corners = uint32_t(hole.corners.size());
+  const std::vector<uint32_t> next = hole.nextCorners();
+  // The triangles grow while they are looked at: halves are looked at again.
+  for (size_t t = 3 * size_t(s.fixedTriangles); t < s.triangles.size(); t += 3)
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t a = s.triangles[t + k], b = s.triangles[t + (k + 1) % 3];
+      if (a >= corners || b >= corners || next[a] == b || next[b] == a) continue;
+      const bool isAlongBorder = hole.isPart && hole.isBetween(a) && hole.isBetween(b);
+      if (!isAlongBorder && !isTaken(hole.vertices[a], hole.vertices[b])) continue;
+      const uint32_t middle = uint32_t(s.positions.size() / 3);
+      const Vec3 m = 0.5 * (pointAt(s.positions, a) + pointAt(s.positions, b));
+      for (const double x : {m.x, m.y, m.z}) s.positions.push_back(inFloats ? double(float(x)) : x);
+      const size_t end = s.triangles.size();
+      for (size_t u = t; u < end; u += 3)
+        for (int j = 0; j < 3; ++j) {
+          const uint32_t p = s.triangles[u + j], q = s.triangles[u + (j + 1) % 3],
+                         r = s.triangles[u + (j + 2) % 3];
+          if (!((p == a && q == b) || (p == b && q == a))) continue;
+          s.triangles[u + (j + 1) % 3] = middle;
+          s.triangles.insert(s.triangles.end(), {middle, q, r});
+          break;
+        }
+    }
+}
+
+/// The faces in some rings of vertices around the rims; `local_` numbers the vertices.
+void HoleFiller::takeRings(Hole& hole, std::vector<uint32_t>& faces) {
+  std::vector<uint32_t>& vertices = hole.vertices;
+  size_t ringStart = 0, seen = 0;
+  for (uint32_t ring = 0; ring < kRings; ++ring) {
+    const size_t ringEnd = vertices.size();
+    for (size_t i = ringStart; i < ringEnd; ++i)
+      for (uint32_t k = fanStarts_[vertices[i]]; k < fanStarts_[vertices[i] + 1]; ++k)
+        faces.push_back(fans_[k]);
+    for (; seen < faces.size(); ++seen)
+      for (int k = 0; k < 3; ++k) {
+        const uint32_t v = mesh_.faces[3 * size_t(faces[seen]) + k];
+        if (local_[v] != kNone) continue;
+        local_[v] = uint32_t(vertices.size());
+        vertices.push_back(v);
+      }
+    ringStart = ringEnd;
+  }
+}
+
+/// The faces beside the rim and some steps further, not across creases.
+void HoleFiller::takeSide(Hole& hole, std::vector<uint32_t>& faces) {
+  for (const Corner& corner : hole.corners)
+    if (corner.edge != kNone) faces.push_back(rims_.halves[corner.edge] / 3);
+  const Creases creases(mesh_, adjacency_, fanStarts_, fans_, hole.crease);
+  std::vector<uint32_t> known(faces);
+  std::sort(known.begin(), known.end());
+  size_t stepStart = 0;
+  for (uint32_t step = 0; step < 2 * kRings; ++step) {
+    const size_t stepEnd = faces.size();
+    std::vector<uint32_t> next;
+    for (size_t i = stepStart; i < stepEnd; ++i)
+      for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t h = 3 * faces[i] + k, twin = adjacency_.twins[h];
+        if (twin != kNone && !creases.isSharp(h) &&
+            !std::binary_search(known.begin(), known.end(), twin / 3))
+          next.push_back(twin / 3);
+      }
+    std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
+    faces.insert(faces.end(), next.begin(), next.end());
+    known.insert(known.end(), next.begin(), next.end());
+    std::inplace_merge(known.begin(), known.end() - ptrdiff_t(next.size()), known.end());
+    stepStart = stepEnd;
+  }
+  for (const uint32_t f : faces)
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t v = mesh_.faces[3 * size_t(f) + k];
+      if (local_[v] != kNone) continue;
+      local_[v] = uint32_t(hole.vertices.size());
+      hole.vertices.push_back(v);
+    }
+}
+
+Vec3 HoleFiller::point(uint32_t vertex) const {
+  const size_t n = mesh_.positions.size() / 3;
+  return vertex < n ? pointAt(mesh_.positions, vertex)
+                    : pointAt(newPositions_, vertex - uint32_t(n));
+}
+
+/// Numbers the corners and the vertices around them, and lists the faces between.
+void HoleFiller::surround(Hole& hole) {
+  const uint32_t n = uint32_t(mesh_.positions.size() / 3);
+  std::vector<uint32_t>& vertices = hole.vertices;
+  for (const Corner& corner : hole.corners) vertices.push_back(corner.vertex);
+  // A vertex of two rims, where they touch, has two numbers; the mesh knows the first.
+  for (uint32_t i = uint32_t(vertices.size()); i-- > 0;)
+    if (vertices[i] < n) local_[vertices[i]] = i;
+  std::vector<uint32_t> faces;
+  if (hole.isPart)
+    takeSide(hole, faces);
+  else
+    takeRings(hole, faces);
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  LocalSurface& surface = hole.surface;
+  for (const uint32_t v : vertices) {
+    const Vec3 p = point(v);
+    surface.positions.insert(surface.positions.end(), {p.x, p.y, p.z});
+  }
+  for (const uint32_t f : faces) {
+    const uint32_t* c = mesh_.faces.data() + 3 * size_t(f);
+    const bool isTurned = adjacency_.turned[f] != 0;
+    for (const uint32_t v : {c[0], c[isTurned ? 2 : 1], c[isTurned ? 1 : 2]})
+      surface.triangles.push_back(local_[v]);
+  }
+  surface.fixedVertices = uint32_t(vertices.size());
+  surface.fixedTriangles = uint32_t(surface.triangles.size() / 3);
+  for (const uint32_t v : vertices)
+    if (v < n) local_[v] = kNone;
+}
+
+/// The mean angle between the patch and the faces along the rim.
+double HoleFiller::rimAngle(const Hole& hole, double* largest) const {
+  const LocalSurface& s = hole.surface;
+  const std::vector<uint32_t> next = hole.nextCorners();
+  double sum = 0;
+  uint32_t count = 0;
+  for (size_t t = 3 * size_t(s.fixedTriangles); t < s.triangles.size(); t += 3)
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t a = s.triangles[t + k], b = s.triangles[t + (k + 1) % 3];
+      if (a >= hole.corners.size() || next[a] != b || hole.corners[a].edge == kNone) continue;
+      const Vec3 n = rims_.normals[hole.corners[a].edge];
+      if (dot(n, n) == 0) continue;
+      const double angle = angleBetween(
+          n, normalOf(s.positions, s.triangles[t], s.triangles[t + 1], s.triangles[t + 2]));
+      if (largest) *largest = std::max(*largest, angle);
+      sum += angle, ++count;
+    }
+  return count ? sum / count : 0;
+}
+
+/// Pairs of a face of the patch and another, both numbered as in the filled mesh.
+bool HoleFiller::findPairs(const Hole& hole, size_t most, std::vector<FacePair>& pairs) {
+  pairs.clear();
+  const LocalSurface& s = hole.surface;
+  const MeshView patch{s.positions, s.triangles};
+  const uint32_t from = s.fixedTriangles, to = uint32_t(s.triangles.size() / 3),
+                 first = faceCount();
+  std::vector<FacePair> own;
+  if (!findIntersections(patch, from, to, mesh_, tree_, most, work_, pairs)) return false;
+  if (!findSelfIntersections(patch, from, to, most, work_, own)) return false;
+  for (FacePair& p : pairs) p.first += first - from;
+  for (const FacePair p : own) pairs.push_back({p.first + first - from, p.second + first - from});
+  return true;
+}
+
+/// Appends pairs among new faces of the filled mesh.
+bool HoleFiller::findOwnPairs(uint32_t from, uint32_t to, std::vector<FacePair>& pairs) {
+  const uint32_t old = uint32_t(mesh_.faces.size() / 3);
+  std::vector<double> positions;
+  std::vector<uint32_t> faces;
+  for (size_t i = 3 * size_t(from - old); i < 3 * size_t(to - old); ++i) {
+    const Vec3 p = point(newFaces_[i]);
+    faces.push_back(uint32_t(positions.size() / 3));
+    positions.insert(positions.end(), {p.x, p.y, p.z});
+  }
+  std::vector<FacePair> own;
+  if (!findSelfIntersections({positions, faces}, 0, to - from, kMostPairs, work_, own))
+    return false;
+  for (const FacePair p : own) pairs.push_back({p.first + from, p.second + from});
+  return true;
+}
+
+bool HoleFiller::append(const Hole& hole) {
+  const LocalSurface& s = hole.surface;
+  const uint32_t firstNew = vertexCount(), fixed = s.fixedVertices;
+  const size_t coordinates = s.positions.size() - 3 * size_t(fixed),
+               corners = s.triangles.size() - 3 * size_t(s.fixedTriangles);
+  if (!charge_.add(8 * coordinates + 4 * corners)) return false;
+  newPositions_.insert(newPositions_.end(), s.positions.begin() + 3 * size_t(fixed),
+                       s.positions.end());
+  for (size_t i = 3 * size_t(s.fixedTriangles); i < s.triangles.size(); ++i) {
+    const uint32_t v = s.triangles[i];
+    newFaces_.push_back(v < fixed ? hole.vertices[v] : firstNew + v - fixed);
+  }
+  return true;
+}
+
+Status HoleFiller::fill(ArrayView<const uint32_t> rims, const FillOptions& options,
+                        FilledHole& result) {
+  result = {};
+  if (rims.size() == 1) {
+    HoleParts parts = stitchRim(mesh_, rims_, rims[0]);
+    if (parts.triangles.empty() && options.crease > 0) {
+      const Creases creases(mesh_, adjacency_, fanStarts_, fans_, options.crease);
+      parts = partHole(mesh_, rims_, rims[0], creases);
+    }
+    bool isDone = false;
+    const Status status = fillParts(parts, options, result, isDone);
+    if (status != Status::Ok || isDone) return status;
+    result = {};
+  }
+  Hole hole;
+  hole.starts = {0};
+  for (const uint32_t r : rims) {
+    hole.crossesSeam |= rims_.rims[r].crossesSeam;
+    for (uint32_t e = rims_.starts[r]; e < rims_.starts[r + 1]; ++e)
+      hole.corners.push_back({rims_.vertices[e], e});
+    hole.starts.push_back(uint32_t(hole.corners.size()));
+  }
+  result.firstFace = faceCount();
+  const Status status = fillPart(hole, options, result);
+  result.endFace = faceCount();
+  return status;
+}
+
+/// Fills the parts of a hole apart. `isDone`: there are such, and all are filled well.
+Status HoleFiller::fillParts(const HoleParts& parts, const FillOptions& options, FilledHole& result,
+                             bool& isDone) {
+  const std::vector<uint32_t>& between = parts.triangles;
+  const bool isStitched = !between.empty();
+  if (parts.parts.empty() && !isStitched) return Status::Ok;
+  const size_t positions = newPositions_.size(), faces = newFaces_.size();
+  const uint32_t firstPoint = vertexCount();
+  result.firstFace = faceCount();
+  if (!charge_.add(sizeof(Vec3) * parts.points.size() + sizeof(uint32_t) * between.size()))
+    return work_.status();
+  for (const Vec3 p : parts.points) newPositions_.insert(newPositions_.end(), {p.x, p.y, p.z});
+  newFaces_.insert(newFaces_.end(), between.begin(), between.end());
+  Status status = Status::Ok;
+  bool isGood = true, areOptimal = true;
+  double before = 0, after = 0, cost = 0, bound = 0;
+  for (const auto& part : parts.parts) {
+    Hole hole;
+    hole.isPart = !isStitched;
+    hole.crease = options.crease;
+    for (const PartCorner& c : part)
+      hole.corners.push_back({c.vertex != kNone ? c.vertex : firstPoint + c.added, c.edge});
+    hole.starts = {0, uint32_t(hole.corners.size())};
+    if (isBorderTaken(hole)) {
+      isGood = false;
+      break;
+    }
+    FilledHole filled;
+    status = fillPart(hole, options, filled);
+    if (status != Status::Ok || filled.status != FillStatus::Filled) {
+      isGood = false;
+      break;
+    }
+    before += filled.rimAngleBefore / double(parts.parts.size()),
+        after += filled.rimAngleAfter / double(parts.parts.size());
+    cost += filled.cost, bound += filled.lowerBound, areOptimal &= filled.optimal;
+    result.fairnessUsed = std::max(result.fairnessUsed, filled.fairnessUsed);
+    result.movedLess = std::max(result.movedLess, filled.movedLess);
+  }
+  result.endFace = faceCount();
+  // Parts may be clean each by itself and still meet. What is stitched touches itself, as the rim does.
+  if (isGood && !isStitched &&
+      !findOwnPairs(result.firstFace, result.endFace, result.intersections))
+    status = work_.status();
+  isDone = status == Status::Ok && isGood && result.intersections.empty();
+  if (!isDone) {
+    newPositions_.resize(positions), newFaces_.resize(faces);
+    return status;
+  }
+  result.status = FillStatus::Filled;
+  if (isStitched) result.reason = FillReason::Stitched;
+  result.rimAngleBefore = before, result.rimAngleAfter = after;
+  result.cost = cost, result.lowerBound = bound, result.optimal = areOptimal;
+  return Status::Ok;
+}
+
+/// Fills what is within some loops, and appends it.
+Status HoleFiller::fillPart(Hole& hole, const FillOptions& options, FilledHole& result) {
+  surround(hole);
+  Status status = span(hole, options, result);
+  if (status != Status::Ok || result.status == FillStatus::Failed) return status;
+  double largest = 0;
+  result.rimAngleBefore = rimAngle(hole, &largest);
+
+  LocalSurface& surface = hole.surface;
+  FairOptions fairing;
+  fairing.order = 0;
+  // What goes on everything around it as it was spanned, nothing should bend.
+  const bool isExact = largest < kExact || isFlat(surface);
+  if (!isExact) {
+    if (options.fairing == Fairing::Auto && !findFairOrder(surface, 0, work_, fairing.order))
+      return work_.status();
+    if (options.fairing == Fairing::Bending) fairing.order = 2;
+    if (options.fairing == Fairing::Curvature) fairing.order = 3;
+    RefineOptions refining;
+    refining.density = options.density;
+    refining.maxNewVertices = options.maxNewVertices;
+    Smoothed smoothed;
+    status = smoothPatchApart(surface, refining, fairing, mesh_, tree_, options.inFloats, work_,
+                              smoothed);
+    if (status != Status::Ok) return status;
+    result.fairnessUsed = smoothed.fairness.order;
+    result.movedLess = 1 - smoothed.share;
+  }
+  splitChords(hole, options.inFloats);
+  if (surface.positions.size() / 3 - surface.fixedVertices > options.maxNewVertices) {
+    result.status = FillStatus::Failed, result.reason = FillReason::DuplicateFace;
+    return Status::Ok;
+  }
+  if (!findPairs(hole, kMostPairs, result.intersections)) return work_.status();
+  if (!result.intersections.empty()) result.status = FillStatus::SelfIntersecting;
+  result.rimAngleAfter = rimAngle(hole, nullptr);
+  return append(hole) ? Status::Ok : work_.status();
+}
+
+}  // namespace sf

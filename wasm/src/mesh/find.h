@@ -1,0 +1,46 @@
+// The rims of a mesh: closed loops of edges with a face on one side alone.
+//
+// Source: Zou, Ju, Carr 2013, sec. 5, takes rims as given. Where several rims meet at a vertex they
+// could be followed in several ways: here across the gaps between faces, whichever pairing turns least.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "base/charge.h"
+#include "base/vec.h"
+#include "mesh/adjacency.h"
+
+namespace sf {
+
+struct Rim {
+  double length, diameter;  // the diameter of more than 1000 vertices is a little too small
+  uint32_t component;       // of the face at its first edge; others can meet it at vertices
+  uint32_t cutEdges;        // edges of it that the mesh has other faces at (Adjacency::cut)
+  bool crossesSeam;         // of a component that is not orientable: filled, it still is not
+};
+
+/// Rims by their half-edges. Rim i has the edges starts[i] to before starts[i + 1]. Edge e runs
+/// from vertices[e] to the vertex of the next edge of the rim, as the edge of a face that fills the
+/// hole runs: the mesh's face is on the right, and its half-edge runs the other way.
+struct Rims {
+  std::vector<uint32_t> starts;    // [k+1]
+  std::vector<Rim> rims;           // [k]
+  std::vector<uint32_t> vertices;  // [e] of the input; those of a rim are different
+  std::vector<uint32_t> halves;    // [e] half-edges of the adjacency, of face halves[e] / 3
+  std::vector<Vec3> normals;       // [e] unit normal of that face, or zero if it cannot be told
+
+  uint32_t count() const { return uint32_t(rims.size()); }
+  uint32_t nextEdge(uint32_t rim, uint32_t e) const {
+    return e + 1 == starts[rim + 1] ? starts[rim] : e + 1;
+  }
+};
+
+/// Finds all rims. Slits between two faces that a cut left open at one edge are none.
+/// Rims that pass a vertex twice are parted there. Rims of components that are not orientable cross
+/// the seams; their normals are all of one side, for along its rim every surface has two sides.
+/// O(m + r log r) time for r rim edges. Memory of the result is charged to `charge`.
+/// False once `work` has to end.
+bool findRims(const MeshView& mesh, const Adjacency& adjacency, Work& work, Charge& charge,
+              Rims& result);
+
+}  // namespace sf

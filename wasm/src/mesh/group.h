@@ -1,0 +1,65 @@
+// Which rims belong to one hole: outer rims with their islands, the two ends of a missing band.
+//
+// Source: Zou, Ju, Carr 2013, sec. 5 and 6: holes with islands, grouped by hand; "automatic grouping
+// by the cost of the triangulation" is left as future work there.
+// Differs: rims vote. Every edge of a rim looks away from its face for the edge that a fair surface
+// would lead to at least cost; where votes leave a pair open, it is handed out for the cost to decide.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "base/charge.h"
+#include "mesh/find.h"
+
+namespace sf {
+
+enum class GroupKind : uint8_t { Alone, Island, Band };
+
+/// How two rims look at each other.
+struct RimVote {
+  uint32_t first, second;              // first < second
+  double shareOfFirst, shareOfSecond;  // of each rim, by length, that looks at the other
+  /// The larger share; or, if that joins the rims, the share of one rim at all rims of the other's
+  /// group, or how much looks at an island for its length.
+  double vote;
+  bool isJoined;
+};
+
+struct Grouping {
+  std::vector<double> openness;  // [k] share of each rim, by length, that faces nothing
+  std::vector<RimVote> votes;    // all pairs with votes, by rims
+  /// Votes from kDoubtFrom to kDoubtTo between rims that stronger votes do not join: the cost of spans
+  /// should decide. Indices in `votes`.
+  std::vector<uint32_t> doubts;
+
+  std::vector<uint32_t> starts;    // [g+1] in `rims`
+  std::vector<uint32_t> rims;      // [k] outer rim first, then by number; groups by their least rim
+  std::vector<GroupKind> kinds;    // [g]
+  std::vector<double> scores;      // [g] the least vote that the group hangs by; 1 for a rim alone
+  std::vector<uint8_t> isOpenRim;  // [g] meant to be open
+  /// [g] Open, and along edges that have other faces: where a sheet ends on others. Neither a hole nor
+  /// an open rim of the mesh.
+  std::vector<uint8_t> isSeam;
+
+  uint32_t count() const { return uint32_t(kinds.size()); }
+};
+
+constexpr double kJoinsFrom = 0.4;        // least vote that joins two rims
+constexpr double kJoinsGroupFrom = 0.5;   // least share at a group that joins a rim to it
+constexpr double kJoinsIslandFrom = 0.4;  // least length that looks at an island, over its own
+constexpr double kOpenFrom = 0.5;         // an open rim has more openness
+constexpr double kDoubtFrom = 0.3, kDoubtTo = 0.65;  // votes that the cost should confirm
+
+/// Groups rims by their votes.
+/// A group is open if more than kOpenFrom of its rims' length faces nothing. But the only open group of a
+/// body, whose closing leaves it a body and no sheet, is a hole: of a bowl, or half a sphere.
+/// About O(m + r log r) time for r edges of rims. Memory of the result is charged to `charge`.
+/// False once `work` has to end.
+bool groupRims(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work,
+               Charge& charge, Grouping& result);
+
+/// Makes the groups anew after `isJoined` of votes has been changed. O(m + r).
+bool regroupRims(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work,
+                 Grouping& result);
+
+}  // namespace sf

@@ -1,0 +1,37 @@
+// The Laplacian of a triangulated surface by cotangents, over its intrinsic Delaunay triangulation.
+// Source: Pinkall, Polthier 1993, "Computing discrete minimal surfaces and their conjugates", for the weights;
+// Bobenko, Springborn 2007, "A discrete Laplace-Beltrami operator for simplicial surfaces", and Fisher, Springborn,
+// Bobenko, Schroeder 2006, "An algorithm for the construction of intrinsic Delaunay triangulations", for the flips;
+// Sharp, Crane 2020, "A Laplacian for nonmanifold triangle meshes", sec. 4.5, for mollification.
+// Differs: edges with no triangle, or more than one, on the other side are boundary edges.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "base/array_view.h"
+#include "base/work.h"
+#include "mesh/sparse_cholesky.h"
+
+namespace sf {
+
+struct Laplacian {
+  /// Positive semidefinite, symmetric, every row with its diagonal: (L x)_i = sum of w_ij (x_i - x_j), which is
+  /// the gradient of the area at vertex i. All w_ij >= 0, but for rounding.
+  SparseRows whole;
+  /// The same over triangles with no vertex on the boundary.
+  SparseRows inner;
+  std::vector<double> mass;  // [n] area about each vertex, > 0, in units
+  double unit = 1;           // the mean area about a vertex
+  std::vector<uint8_t>
+      isBoundary;  // [n] vertices whose triangles do not go all around them, or that have none
+};
+
+/// Builds it. O(m) time but for flips, of which there are few on meshes that are nearly Delaunay.
+///   positions  [3n]
+///   triangles  [3m] consistently wound; degenerate ones do no harm
+///   creased    [n] or empty: more vertices to count as on the boundary
+/// False when the work ended.
+bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t> triangles,
+                    ArrayView<const uint8_t> creased, Work& work, Laplacian& result);
+
+}  // namespace sf

@@ -1,0 +1,73 @@
+// The functions for meshes of `soapfilm/worker`.
+import type { SmoothArrays } from './border.js';
+import { optionsOf } from './check.js';
+import type { FilledHoles, FlatMesh, FoundHoles } from './compute_holes.js';
+import { fillOptionsOf, flattenMesh, holeOptionsOf } from './hole_input.js';
+import { filledOf, partListeners, partsOf, planOf, reportOf } from './hole_results.js';
+import { kFillOptions, kHoleOptions, kSmoothOptions, limitsOf, signalOf } from './options.js';
+import type { Pool } from './pool.js';
+import { smoothOf, smoothWorkOf } from './smooth.js';
+import type { FillOptions, HoleOptions, SmoothOptions } from './types.js';
+import type { CallOptions, Film } from './worker.js';
+
+type MeshCalls = 'findHoles' | 'fillHoles' | 'smoothSurface';
+
+/** Calls that check and copy here, have the pool compute, and make the results here. */
+export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
+  const find = async (mesh: FlatMesh, options: HoleOptions, signal: AbortSignal | undefined): Promise<FoundHoles> =>
+    (await pool.call('findHoles', [mesh, holeOptionsOf(options)], { signal })) as FoundHoles;
+  return {
+    async findHoles(mesh, options = {}) {
+      const flat = flattenMesh(mesh, true);
+      const { signal, ...given } = optionsOf<HoleOptions & CallOptions>(options, { ...kHoleOptions, signal: true });
+      return reportOf(await find(flat, holeOptionsOf(given), signalOf(signal)));
+    },
+    async fillHoles(mesh, options = {}) {
+      const flat = flattenMesh(mesh, true);
+      const { signal: aborts, ...rest } = optionsOf<FillOptions & CallOptions>(options, { ...kFillOptions, signal: true });
+      const signal = signalOf(aborts);
+      const given = fillOptionsOf(rest);
+      const found = await find(flat, given, signal);
+      const plan = planOf(reportOf(found), given, flat.single);
+      const parts = partsOf(plan.work, plan, pool.size);
+      const listeners = partListeners(plan, parts, given.onProgress);
+      // One thread is handed the mesh itself, the others copies.
+      const { positions, faces, single } = found.mesh;
+      const copy = (): FlatMesh => ({ positions: positions.slice(), faces: faces.slice(), single });
+      const meshes = parts.map((_, i) => (i === 0 ? found.mesh : copy()));
+      const filled = await together(signal, parts, (work, i, ends) => {
+        const patches = { ...limitsOf(given), work, spentSeconds: found.seconds };
+        return pool.call('fillHoles', [meshes[i], patches], { signal: ends, onProgress: listeners[i] }) as Promise<FilledHoles>;
+      });
+      return filledOf(filled[0]?.mesh ?? found.mesh, plan, filled.map(({ arrays }) => arrays), given);
+    },
+    async smoothSurface(surface, options = {}) {
+      const flat = flattenMesh(surface, true, 'surface');
+      const { signal, ...given } = optionsOf<SmoothOptions & CallOptions>(options, { ...kSmoothOptions, signal: true });
+      const watch = { signal: signalOf(signal) };
+      return smoothOf((await pool.call('smoothSurface', [flat, smoothWorkOf(given)], watch)) as SmoothArrays);
+    },
+  };
+}
+
+/** Starts work on all parts at once. The first that fails, or the signal, ends the others. */
+async function together<P, R>(
+  signal: AbortSignal | undefined,
+  parts: readonly P[],
+  start: (part: P, number: number, ends: AbortSignal) => Promise<R>,
+): Promise<R[]> {
+  const ends = new AbortController();
+  const abort = (): void => {
+    ends.abort(signal?.reason);
+  };
+  if (signal?.aborted) abort();
+  signal?.addEventListener('abort', abort);
+  try {
+    return await Promise.all(parts.map((part, i) => start(part, i, ends.signal)));
+  } catch (error) {
+    ends.abort();
+    throw error;
+  } finally {
+    signal?.removeEventListener('abort', abort);
+  }
+}

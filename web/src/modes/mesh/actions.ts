@@ -1,0 +1,140 @@
+// What can be done with meshes besides what all modes have.
+import { computed } from '@preact/signals';
+import type { Action } from '../../app/actions.ts';
+import { fileStem, save } from '../../app/files.ts';
+import type { Stage } from '../../scene/stage.ts';
+import { boundsOf, normalize, subtract, type Point } from '../../shapes/vec.ts';
+import { newItem } from '../../state/document.ts';
+import { complain } from '../../state/notice.ts';
+import { choose, dispatch, put, requestFrame } from '../../state/store.ts';
+import { kExamples, type Example } from './examples.ts';
+import { isSettled, patches, withPatches } from './filling.ts';
+import type { Hole } from './grouping.ts';
+import { chosenHoles, fill, fillAll, found, holes, isAnyLeft, leave, whole } from './holes.ts';
+import { view } from './looks.ts';
+import { meshKind } from './mesh_kind.ts';
+import { kNoChoices, meshGroup, type MeshShape } from './settings.ts';
+import { isFilled } from './wording.ts';
+
+/** What is about a hole that is looked at, in sizes of the hole. */
+const kAround = 2.2;
+
+export const chosen = computed<readonly Hole[]>(() => chosenHoles.value.flatMap((h) => holes.value.at(h) ?? []));
+
+const kExport = (id: string, note: string, type: string, extension: string, write: (mesh: MeshShape, name: string) => Promise<Blob>): Action => ({
+  id,
+  label: `Export the filled mesh as ${note}`,
+  bar: 'export',
+  text: 'Filled mesh',
+  note,
+  applies: () => whole.value !== null,
+  run: () => { saveFilled(extension, type, write); },
+});
+
+export const kActions: readonly Action[] = [
+  {
+    id: 'fill chosen',
+    label: 'Fill what is chosen',
+    help: 'Fill the chosen holes',
+    section: 'Edit',
+    keys: ['canvas+enter'],
+    applies: () => chosen.value.length > 0,
+    run: () => { fill(...chosen.peek()); },
+  },
+  {
+    id: 'leave chosen',
+    label: 'Leave what is chosen open',
+    help: 'Leave the chosen holes open',
+    section: 'Edit',
+    keys: ['delete', 'backspace'],
+    applies: () => chosen.value.length > 0,
+    run: () => { leave(...chosen.peek()); },
+  },
+  {
+    id: 'fill all',
+    label: 'Fill all holes',
+    section: 'Edit',
+    keys: ['a'],
+    bar: 'tools',
+    icon: { path: 'M4 6.5c5-3.5 11-3.5 16 0v11c-5 3.5-11 3.5-16 0zM8.5 12.2l2.6 2.6 4.6-5' },
+    applies: () => isAnyLeft.value,
+    run: fillAll,
+  },
+  {
+    id: 'zebra',
+    label: 'Zebra stripes',
+    help: 'Zebra stripes: they break where the surface has a kink',
+    section: 'View',
+    keys: ['z'],
+    bar: 'view',
+    icon: { path: 'M4 18c4-2 4-10 8-12M9 20c4-3 4-11 8-13M14 20c3-3 3-7 6-9' },
+    isOn: () => view.value.zebra,
+    run: () => (view.value = { ...view.peek(), zebra: !view.peek().zebra }),
+  },
+  {
+    ...kExport('save obj', 'OBJ', 'model/obj', 'obj', async (mesh, name) => (await import('./write.ts')).writeObj(mesh, name)),
+    section: 'File',
+    keys: ['ctrl+s'],
+  },
+  kExport('save ply', 'PLY', 'application/octet-stream', 'ply', async (mesh) => (await import('./write.ts')).writePly(mesh)),
+  kExport('save stl', 'STL', 'model/stl', 'stl', async (mesh) => (await import('./write.ts')).writeStl(mesh)),
+];
+
+function saveFilled(extension: string, type: string, write: (mesh: MeshShape, name: string) => Promise<Blob>): void {
+  const of = whole.peek();
+  if (of === null) return;
+  if (found.peek() === null || !isSettled.peek()) {
+    complain('The holes are not filled yet. Export once they are.', 'export');
+    return;
+  }
+  const { name } = meshGroup.peek();
+  const filled = patches.peek().filter(isFilled);
+  save(`${fileStem(name)}${filled.length > 0 ? '-filled' : ''}.${extension}`, type, () => write(withPatches(of, filled), name));
+}
+
+/** Brings a hole into view, from outside. */
+export function lookAt(stage: Stage, hole: Hole): void {
+  const now = found.peek();
+  const viewpoint = stage.current.peek()?.viewpoint;
+  if (now === null || !viewpoint) return;
+  const { positions } = now.of;
+  const at = (vertex: number): Point => [positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]];
+  const { vertices } = now.report.loops[hole.loops[0]];
+  const first = at(vertices[0]);
+  let [low, high, normal]: [Point, Point, Point] = [first, first, [0, 0, 0]];
+  for (let i = 0; i < vertices.length; i++) {
+    const [p, q] = [at(vertices[i]), at(vertices[(i + 1) % vertices.length])];
+    low = [Math.min(low[0], p[0]), Math.min(low[1], p[1]), Math.min(low[2], p[2])];
+    high = [Math.max(high[0], p[0]), Math.max(high[1], p[1]), Math.max(high[2], p[2])];
+    // Newell's sum, about a point of the rim so that far from the origin no digits are lost.
+    const [a, b] = [subtract(p, first), subtract(q, first)];
+    normal = [normal[0] + (a[1] - b[1]) * (a[2] + b[2]), normal[1] + (a[2] - b[2]) * (a[0] + b[0]), normal[2] + (a[0] - b[0]) * (a[1] + b[1])];
+  }
+  const { center, diagonal } = boundsOf({ low, high });
+  const { radius } = viewpoint;
+  const reach = (kAround * diagonal) / (2 * Math.sqrt(3));
+  viewpoint.frame({ low: center.map((x) => x - reach) as unknown as Point, high: center.map((x) => x + reach) as unknown as Point }, normalize(normal));
+  // What there is to see is as large as before: nothing of it is cut off.
+  viewpoint.radius = radius;
+  stage.view.invalidate();
+}
+
+export function openExample({ title, shape, view: direction }: Example): void {
+  choose();
+  dispatch({
+    type: 'open',
+    group: meshGroup.peek().id,
+    name: title,
+    items: [newItem(meshKind, shape())],
+    settings: { ...meshGroup.peek().settings, of: [], ...kNoChoices },
+  });
+  requestFrame(direction);
+}
+
+/** The first example, as what was there from the beginning. */
+export function beginWithExample(): void {
+  const { title, shape, view: direction } = kExamples[0];
+  put({ ...meshGroup.peek(), name: title, items: [newItem(meshKind, shape())] });
+  requestFrame(direction, true);
+}
+

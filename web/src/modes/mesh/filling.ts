@@ -1,0 +1,175 @@
+// Filling the holes that are to be filled, in the worker. Patches are kept: only those that are missing, or were made in
+// another way, are computed.
+import { computed, signal } from '@preact/signals';
+import type { FilledHole, FillOptions, FillResult } from 'soapfilm';
+import { createWork, plainFailure } from '../../state/work.ts';
+import { found, holes, settings, wishFor } from './holes.ts';
+import type { Hole } from './grouping.ts';
+import { kMode, type MeshSettings, type Smoothness } from './settings.ts';
+import type { Whole } from './whole.ts';
+
+/** What became of one hole. */
+export interface Patch {
+  readonly of: Whole;
+  /** How it was made. */
+  readonly manner: string;
+  readonly result: FilledHole;
+  /** `[3m]` vertices of the whole mesh, and from its number of vertices on those of this patch. */
+  readonly faces: Uint32Array;
+  /** `[3n]` the patch's own vertices. */
+  readonly positions: Float32Array;
+  /** Numbers of its faces that intersect something, and of the mesh's that it intersects. */
+  readonly crossing: readonly number[];
+  readonly crossed: readonly number[];
+}
+
+interface Job {
+  readonly of: Whole;
+  readonly holes: readonly Hole[];
+  readonly manner: string;
+  readonly options: FillOptions;
+}
+
+const kFairness: Record<Smoothness, NonNullable<FillOptions['fairness']>> = { none: 0, direction: 1, curvature: 2, auto: 'auto' };
+
+const keyOf = ({ loops }: Hole): string => loops.join(' ');
+const mannerOf = ({ smoothness, density, candidates }: MeshSettings): string => `${smoothness} ${density} ${candidates}`;
+
+const kept = signal<ReadonlyMap<string, Patch>>(new Map());
+
+const wanted = computed(() => holes.value.filter((hole) => wishFor(hole) === 'fill'));
+
+/** Changes exactly where there is something else to do. */
+const jobKey = computed(() => [mannerOf(settings.value), ...wanted.value.map(keyOf)].join('\n'));
+
+const job = computed<Job | null>(() => {
+  const of = found.value?.of;
+  if (!of || jobKey.value.indexOf('\n') < 0) return null;
+  const { smoothness, density, candidates } = settings.peek();
+  return { of, holes: wanted.peek(), manner: mannerOf(settings.peek()), options: { fairness: kFairness[smoothness], density, candidates } };
+});
+
+/** The patch of a hole, if it is to have one and has: perhaps one that was made in another way. */
+export function patchOf(hole: Hole): Patch | null {
+  const patch = wishFor(hole) === 'fill' ? kept.value.get(keyOf(hole)) : undefined;
+  return patch && patch.of === found.value?.of ? patch : null;
+}
+
+/** Those of all holes, in their order. */
+export const patches = computed<readonly Patch[]>(() => wanted.value.flatMap((hole) => patchOf(hole) ?? []));
+
+/** Whether every hole that is to be filled has what the settings ask for. */
+export const isSettled = computed(() => {
+  const manner = mannerOf(settings.value);
+  return found.value !== null && wanted.value.every((hole) => patchOf(hole)?.manner === manner);
+});
+
+export const filling = createWork<Job, ReadonlyMap<string, Patch>>({
+  mode: kMode,
+  verb: 'Filling',
+  input: job,
+  part: 'meshes',
+  async compute(film, of, watch) {
+    const todo = missing(of);
+    if (todo.length === 0) return new Map();
+    const result = await film.fillHoles(
+      { positions: of.of.positions, faces: of.of.faces },
+      {
+        ...of.options,
+        groups: todo.map(({ loops }) => loops),
+        // By name, so that open rims are filled too.
+        holes: todo.map((_, i) => i),
+        output: 'patches',
+        signal: watch.signal,
+        onProgress: (fraction) => { watch.progress(fraction); },
+      },
+    );
+    return new Map(patchesIn(result, of).map((patch) => [keyOf(todo[patch.result.group]), patch]));
+  },
+  show: (made, of) => {
+    if (made === null || of === null) return;
+    const others = [...kept.peek()].filter(([, patch]) => patch.of === of.of);
+    kept.value = new Map([...others, ...made]);
+  },
+  explain: plainFailure,
+});
+
+/** The holes whose patches are missing, and those so near to them that the patches may meet. */
+function missing({ of, holes: all, manner }: Job): Hole[] {
+  const isMade = (hole: Hole): boolean => {
+    const patch = kept.peek().get(keyOf(hole));
+    return patch !== undefined && patch.of === of && patch.manner === manner;
+  };
+  const todo = all.filter((hole) => !isMade(hole));
+  if (todo.length === 0 || todo.length === all.length) return todo;
+  const boxes = todo.map(boxOfHole);
+  return all.filter((hole) => !isMade(hole) || boxes.some((box) => doMeet(box, boxOfHole(hole))));
+}
+
+type Bounds = readonly [low: readonly number[], high: readonly number[]];
+
+/** The box of a hole's rims, and half as much again all round for what bulges. */
+function boxOfHole({ loops }: Hole): Bounds {
+  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  const now = found.peek();
+  for (const loop of now ? loops : []) {
+    for (const vertex of now?.report.loops[loop].vertices ?? []) {
+      for (let axis = 0; axis < 3; axis++) {
+        const x = now?.of.positions[3 * vertex + axis] ?? 0;
+        low[axis] = Math.min(low[axis], x);
+        high[axis] = Math.max(high[axis], x);
+      }
+    }
+  }
+  const more = Math.max(...high.map((x, axis) => x - low[axis])) / 2;
+  return [low.map((x) => x - more), high.map((x) => x + more)];
+}
+
+const doMeet = ([lowA, highA]: Bounds, [lowB, highB]: Bounds): boolean =>
+  lowA.every((x, axis) => x <= highB[axis] && lowB[axis] <= highA[axis]);
+
+/** The patches in a result of only patches, each with its own vertices. */
+function patchesIn({ mesh, oldVertices, oldFaces, holes: results }: FillResult, { of, manner }: Job): Patch[] {
+  const single = mesh.positions instanceof Float32Array ? mesh.positions : Float32Array.from(mesh.positions);
+  const owners = results.map(({ faces }) => faces);
+  const crossing = results.map((): Set<number> => new Set());
+  const crossed = results.map((): Set<number> => new Set());
+  results.forEach(({ intersections }, h) => {
+    for (const face of intersections) {
+      if (face < oldFaces) crossed[h].add(face);
+      const owner = owners.findIndex(([from, to]) => face >= from && face < to);
+      if (owner >= 0) crossing[owner].add(face - owners[owner][0]);
+    }
+  });
+  return results.map((result, h) => {
+    const [from, to] = result.faces;
+    const faces = mesh.faces.slice(3 * (from - oldFaces), 3 * (to - oldFaces));
+    const own = new Map<number, number>();
+    for (let i = 0; i < faces.length; i++) {
+      if (faces[i] < oldVertices) continue;
+      const number = own.get(faces[i]) ?? own.size;
+      own.set(faces[i], number);
+      faces[i] = oldVertices + number;
+    }
+    const positions = new Float32Array(3 * own.size);
+    for (const [vertex, number] of own) positions.set(single.subarray(3 * (vertex - oldVertices), 3 * (vertex - oldVertices) + 3), 3 * number);
+    return { of, manner, result, faces, positions, crossing: [...crossing[h]], crossed: [...crossed[h]] };
+  });
+}
+
+/** The mesh with patches, old vertices and faces first and as they were. */
+export function withPatches({ positions, faces }: Whole, all: readonly Patch[]): { positions: Float32Array; faces: Uint32Array } {
+  const n = positions.length / 3;
+  const more = (key: 'positions' | 'faces') => all.reduce((sum, patch) => sum + patch[key].length, 0);
+  const points = new Float32Array(positions.length + more('positions'));
+  const corners = new Uint32Array(faces.length + more('faces'));
+  points.set(positions);
+  corners.set(faces);
+  let [first, to] = [n, faces.length];
+  for (const patch of all) {
+    points.set(patch.positions, 3 * first);
+    for (const vertex of patch.faces) corners[to++] = vertex < n ? vertex : vertex - n + first;
+    first += patch.positions.length / 3;
+  }
+  return { positions: points, faces: corners };
+}

@@ -1,0 +1,112 @@
+// The kind of object that is a mesh. Its parts are its rims, once they have been found: they are chosen, and never moved.
+import { Group, type Object3D } from 'three';
+import type { DrawnKind, Drawn, Hit, Layer, Marks } from '../../scene/kind.ts';
+import { distanceOf, shareAlong, type Eye, type Projected, type Spot } from '../../scene/eye.ts';
+import { add, kNoBox, scale, subtract, type Box, type Point } from '../../shapes/vec.ts';
+import type { Item } from '../../state/document.ts';
+import { LitSurface, placed } from './lit_surface.ts';
+import { looksFor } from './looks.ts';
+import { kMesh, type MeshShape } from './settings.ts';
+import { rimsOf, shapeOf } from './whole.ts';
+
+export const meshKind: DrawnKind<MeshShape> = {
+  name: kMesh,
+  isFixed: true,
+  boxOf,
+  partStarts: (shape) => rimsOf(shape).starts,
+  handleAt: (shape, handle) => vertexAt(shape, rimsOf(shape).vertices[handle]),
+  move: (shape) => shape,
+  remove: (shape) => shape,
+  read: readShape,
+  pick: pickRim,
+  makeLayer: () => new MeshLayer(),
+};
+
+const vertexAt = ({ positions }: MeshShape, vertex: number): Point => [
+  positions[3 * vertex],
+  positions[3 * vertex + 1],
+  positions[3 * vertex + 2],
+];
+
+function boxOf({ positions: p }: MeshShape): Box {
+  if (p.length === 0) return kNoBox;
+  let [x0, y0, z0] = kNoBox.low;
+  let [x1, y1, z1] = kNoBox.high;
+  for (let i = 0; i < p.length; i += 3) {
+    const [x, y, z] = [p[i], p[i + 1], p[i + 2]];
+    if (x < x0) x0 = x;
+    if (x > x1) x1 = x;
+    if (y < y0) y0 = y;
+    if (y > y1) y1 = y;
+    if (z < z0) z0 = z;
+    if (z > z1) z1 = z;
+  }
+  return { low: [x0, y0, z0], high: [x1, y1, z1] };
+}
+
+function readShape(saved: unknown): MeshShape | null {
+  const { positions, faces } = (saved ?? {}) as Partial<Record<keyof MeshShape, unknown>>;
+  if (!(positions instanceof Float32Array) || !(faces instanceof Uint32Array)) return null;
+  const isWhole = positions.length % 3 === 0 && faces.length % 3 === 0 && positions.every(Number.isFinite);
+  return isWhole && faces.every((vertex) => 3 * vertex < positions.length) ? { positions, faces } : null;
+}
+
+/** The rim nearest to a place. Of rims alike near, the one that is nearer to the eye. */
+function pickRim(shape: MeshShape, eye: Eye, at: Spot, reach: number): Hit | null {
+  const { starts, vertices } = rimsOf(shape);
+  let best: Hit | null = null;
+  let least = Infinity;
+  for (let part = 0; part + 1 < starts.length; part++) {
+    let before: { readonly point: Point; readonly at: Projected } | null = null;
+    for (let i = starts[part]; i <= starts[part + 1]; i++) {
+      const point = vertexAt(shape, vertices[i < starts[part + 1] ? i : starts[part]]);
+      const here = { point, at: eye.project(point) };
+      if (before?.at.visible && here.at.visible) {
+        const share = shareAlong(at, before.at, here.at);
+        const on = { x: before.at.x + share * (here.at.x - before.at.x), y: before.at.y + share * (here.at.y - before.at.y) };
+        const distance = distanceOf(on, at);
+        if (distance < reach) {
+          // Three pixels nearer on the screen count as much as half as near to the eye.
+          const score = distance + 3 * Math.log2(eye.pixelSize(point));
+          if (score < least) {
+            least = score;
+            best = { part, handle: null, distance, point: add(before.point, scale(subtract(here.point, before.point), share)) };
+          }
+        }
+      }
+      before = here;
+    }
+  }
+  return best;
+}
+
+/** All meshes. */
+class MeshLayer implements Layer {
+  readonly object: Object3D = new Group();
+  private surfaces = new Map<MeshShape, LitSurface>();
+  private shown: { readonly items: readonly Item[]; readonly placement: Drawn['placement'] } | null = null;
+
+  update(items: readonly Item[], _: Marks, { placement, theme }: Drawn): void {
+    // Pointing at something comes here too, and changes nothing of this.
+    const { shown } = this;
+    const isSame = shown?.placement === placement && shown.items.length === items.length && items.every((item, i) => item.shape === shown.items[i].shape);
+    if (!isSame) {
+      const before = shown?.placement === placement ? this.surfaces : new Map<MeshShape, LitSurface>();
+      const next = new Map<MeshShape, LitSurface>();
+      for (const shape of items.map(shapeOf)) next.set(shape, before.get(shape) ?? surfaceOf(shape, placement));
+      for (const [shape, surface] of this.surfaces) if (next.get(shape) !== surface) surface.set(null);
+      this.object.clear();
+      for (const surface of next.values()) this.object.add(surface.object);
+      this.surfaces = next;
+      this.shown = { items, placement };
+    }
+    const look = looksFor(theme).mesh;
+    for (const surface of this.surfaces.values()) surface.setLook(look);
+  }
+}
+
+function surfaceOf({ positions, faces }: MeshShape, { center, unit }: Drawn['placement']): LitSurface {
+  const made = new LitSurface(0, 0.25);
+  made.set({ positions: placed(positions, center, unit), faces });
+  return made;
+}

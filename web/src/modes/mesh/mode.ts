@@ -1,0 +1,37 @@
+// Holes of meshes: found, grouped with their islands, filled.
+import type { Content } from '../../app/content.ts';
+import type { Mode } from '../../app/mode.ts';
+
+/** Whether the first bytes are those of the letters. */
+const hasMark = ({ bytes }: Content, mark: string): boolean => Array.from(mark).every((letter, i) => bytes[i] === letter.charCodeAt(0));
+
+/** 80 bytes of any kind, the number of triangles, and 50 bytes for each. */
+function isBinaryStl({ bytes }: Content): boolean {
+  if (bytes.length < 84) return false;
+  return bytes.length === 84 + 50 * new DataView(bytes.buffer, bytes.byteOffset).getUint32(80, true);
+}
+
+export const mesh: Mode = {
+  id: 'mesh',
+  label: 'Mesh',
+  title: 'Holes of scanned meshes, filled',
+  files: [
+    { id: 'ply', what: 'a PLY file', label: 'PLY', extensions: ['.ply'], isIt: (content) => hasMark(content, 'ply\n') || hasMark(content, 'ply\r') },
+    {
+      id: 'stl',
+      what: 'an STL file',
+      label: 'STL',
+      extensions: ['.stl'],
+      isIt: (content) => (content.isText ? /^solid\b[^]*\bfacet\b/.test(content.head) : isBinaryStl(content)),
+    },
+    { id: 'glb', what: 'a GLB file', label: 'GLB', extensions: ['.glb'], isIt: (content) => hasMark(content, 'glTF') },
+    {
+      id: 'obj',
+      what: 'an OBJ file of faces',
+      label: 'OBJ',
+      extensions: ['.obj'],
+      isIt: (content) => content.hasStatement('v') && content.hasStatement('f'),
+    },
+  ],
+  fetch: () => import('./room.tsx'),
+};

@@ -1,0 +1,74 @@
+// All meshes of the group as one, as the library takes them, and the rims that were found in each.
+import type { HoleReport } from 'soapfilm';
+import type { Id, Item, Place } from '../../state/document.ts';
+import type { MeshShape } from './settings.ts';
+
+/** One mesh: that of the only object, or those of several one after the other. */
+export interface Whole extends MeshShape {
+  readonly items: readonly Item[];
+  /** `[items + 1]` where the vertices of each begin. */
+  readonly starts: readonly number[];
+}
+
+export const shapeOf = (item: Item): MeshShape => item.shape as MeshShape;
+
+export function wholeOf(items: readonly Item[]): Whole {
+  const shapes = items.map(shapeOf);
+  const starts = [0];
+  for (const { positions } of shapes) starts.push(starts[starts.length - 1] + positions.length / 3);
+  if (shapes.length === 1) return { ...shapes[0], items, starts };
+  const positions = new Float32Array(3 * starts[shapes.length]);
+  const faces = new Uint32Array(shapes.reduce((sum, shape) => sum + shape.faces.length, 0));
+  let to = 0;
+  shapes.forEach((shape, k) => {
+    positions.set(shape.positions, 3 * starts[k]);
+    for (const vertex of shape.faces) faces[to++] = starts[k] + vertex;
+  });
+  return { items, starts, positions, faces };
+}
+
+/** The rims of one mesh: its parts, as the document calls them, with their vertices as handles. */
+export interface Rims {
+  /** `[rims]` their numbers in the report. */
+  readonly loops: readonly number[];
+  /** `[rims + 1]` where each begins. */
+  readonly starts: Uint32Array;
+  /** The vertices of the mesh along the rims. */
+  readonly vertices: Uint32Array;
+}
+
+const kNoRims: Rims = { loops: [], starts: new Uint32Array(1), vertices: new Uint32Array() };
+const found = new WeakMap<object, Rims>();
+
+/** What was found in a mesh; no rims until then. */
+export const rimsOf = (shape: MeshShape): Rims => found.get(shape) ?? kNoRims;
+
+/** Notes the rims of each mesh. A loop lies in one mesh, since meshes share no vertex. */
+export function noteRims({ items, starts }: Whole, { loops }: HoleReport): void {
+  items.forEach((item, k) => {
+    const numbers = loops.flatMap(({ vertices }, i) => (vertices[0] >= starts[k] && vertices[0] < starts[k + 1] ? i : []));
+    const ends = new Uint32Array(numbers.length + 1);
+    numbers.forEach((i, rim) => (ends[rim + 1] = ends[rim] + loops[i].vertices.length));
+    const vertices = new Uint32Array(ends[numbers.length]);
+    numbers.forEach((i, rim) => {
+      loops[i].vertices.forEach((vertex, at) => (vertices[ends[rim] + at] = vertex - starts[k]));
+    });
+    found.set(shapeOf(item), { loops: numbers, starts: ends, vertices });
+  });
+}
+
+/** The number in the report of the loop at a place. */
+export function loopAt({ items }: Whole, { item: id, part }: Place): number | undefined {
+  const item = items.find((each) => each.id === id);
+  return item && rimsOf(shapeOf(item)).loops.at(part);
+}
+
+export function placeOf({ items }: Whole, loop: number): Place | null {
+  for (const item of items) {
+    const part = rimsOf(shapeOf(item)).loops.indexOf(loop);
+    if (part >= 0) return { item: item.id, part, handle: null };
+  }
+  return null;
+}
+
+export const idsOf = (items: readonly Item[]): readonly Id[] => items.map(({ id }) => id);
