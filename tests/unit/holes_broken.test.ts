@@ -1,5 +1,6 @@
 // findHoles, fillHoles: meshes with every fault are reported on, filled where they can be, and never changed.
 import { fillHoles, findHoles, load, type DefectKind, type FillOptions, type FillResult, type Point } from 'soapfilm';
+import { createWorker } from 'soapfilm/worker';
 import { beforeAll, describe, expect, test } from 'vitest';
 import { Random } from '../support/generators.ts';
 import {
@@ -150,6 +151,34 @@ describe('broken meshes', () => {
       const result = expectSound(mesh, { fillOpenRims: true, density });
       expect(result.closed).toBe(true);
       for (const [edge, count] of directedEdges(result.mesh.faces)) expect(count, edge).toBe(1);
+    }
+  });
+
+  test('patches of different holes that cross: both are told', async () => {
+    const positions = [
+      -0.4, 0, 0.064, -0.6, 0.2, 0.128, -0.4, 0.2, 0.048, -0.8, 0.4, 0.192, -0.4, 0.4, 0, -1, 0.6, 0.256,
+      -0.8, 0.6, 0.112, -0.6, 0.6, 0, -0.4, 0.6, -0.08, -0.2, 0.6, -0.128, -1, 0.8, 0.144, -0.8, 0.8, 0,
+    ];
+    const mesh = { positions: Float64Array.from(positions), faces: Uint32Array.of(0, 2, 1, 3, 6, 5, 4, 9, 8, 5, 11, 10, 6, 7, 11) };
+    const film = await createWorker({ size: 2 });
+    try {
+      for (const output of ['mesh', 'patches'] as const) {
+        const result = fillHoles(mesh, { fillOpenRims: true, output });
+        expect(await film.fillHoles(mesh, { fillOpenRims: true, output })).toEqual(result);
+        const crossed = result.holes.filter(({ status }) => status === 'self-intersecting');
+        expect(crossed.length).toBe(2);
+        for (const [one, other] of [crossed, [...crossed].reverse()]) {
+          expect(one.intersections.length).toBeGreaterThan(0);
+          one.intersections.forEach((face, i) => {
+            const [from, to] = (i % 2 === 0 ? one : other).faces;
+            expect(face).toBeGreaterThanOrEqual(from);
+            expect(face).toBeLessThan(to);
+          });
+        }
+        expect(result.closed).toBe(false);
+      }
+    } finally {
+      film.dispose();
     }
   });
 

@@ -101,6 +101,9 @@ enum SfStateArray { SF_STATE_ARRAYS(SF_ARRAY) SfStateArrayCount };
 #define SF_ARRAY(type, name, meaning) SfHoles_##name,
 enum SfHolesArray { SF_HOLES_ARRAYS(SF_ARRAY) SfHolesArrayCount };
 #undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SfCrossings_##name,
+enum SfCrossingsArray { SF_CROSSINGS_ARRAYS(SF_ARRAY) SfCrossingsArrayCount };
+#undef SF_ARRAY
 #define SF_ARRAY(type, name, meaning) SfWeld_##name,
 enum SfWeldArray { SF_WELD_ARRAYS(SF_ARRAY) SfWeldArrayCount };
 #undef SF_ARRAY
@@ -215,6 +218,13 @@ SF_API(sf_weld_mesh)
 SfStatus sf_weld_mesh(const double* positions, uint32_t vertexCount, const uint32_t* faces,
                       uint32_t faceCount, double radius, double maxBytes, SfPlace* where,
                       SfResult** result);
+
+/// Finds the faces of a mesh that have more in common than vertices and edges that they share.
+///   as for sf_find_holes
+///   result   out: SF_CROSSINGS_ARRAYS; null unless the status is Ok
+SF_API(sf_find_crossings)
+SfStatus sf_find_crossings(const double* positions, uint32_t vertexCount, const uint32_t* faces,
+                           uint32_t faceCount, double maxBytes, SfPlace* where, SfResult** result);
 
 /// Fills holes of a triangle mesh.
 ///   positions, vertexCount, faces, faceCount, maxBytes   as for sf_find_holes

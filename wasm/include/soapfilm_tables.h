@@ -238,6 +238,11 @@
   X(uint32_t, faces, "[3m] the input's faces")                                         \
   X(uint32_t, vertexMap, "[n] the new number of each vertex")
 
+/* sf_find_crossings */
+
+#define SF_CROSSINGS_ARRAYS(X) \
+  X(uint32_t, pairs, "[2p] faces that intersect, the smaller first; at most some 10 000 pairs")
+
 /* sf_fill_holes */
 
 #define SF_FAIRING_CHOICES(X)  \

@@ -509,6 +509,15 @@ export const readWeldArrays = (array: ArrayReader): WeldArrays => ({
   vertexMap: array(2, Uint32Array),
 });
 
+export interface CrossingsArrays {
+  /** [2p] faces that intersect, the smaller first; at most some 10 000 pairs */
+  readonly pairs: Uint32Array;
+}
+
+export const readCrossingsArrays = (array: ArrayReader): CrossingsArrays => ({
+  pairs: array(0, Uint32Array),
+});
+
 export const kFairingChoices = ['none', 'bending', 'curvature', 'auto'] as const;
 
 export interface PatchSettings {

@@ -1,5 +1,5 @@
 // Holes, once the arguments are checked: asks the core, and hands on its arrays. Threads need only this half.
-import { readFillArrays, readHolesArrays, readWeldArrays, type FillArrays, type HolesArrays } from './border.js';
+import { readCrossingsArrays, readFillArrays, readHolesArrays, readWeldArrays, type FillArrays, type HolesArrays } from './border.js';
 import { meshError } from './messages.js';
 import type { Limits } from './options.js';
 import { callCore, kDefaultMemoryBytes, shared, type CoreArgument } from './runtime.js';
@@ -75,4 +75,11 @@ export function computePatches(mesh: FlatMesh, options: PatchOptions): FilledHol
   const watch = { maxSeconds, spentSeconds, onProgress, explain: meshError };
   const { arrays } = callCore(shared.meshes, 'sf_fill_holes', args, readFillArrays, watch);
   return { arrays, mesh };
+}
+
+/** Pairs of faces of a mesh that intersect: [2p]. */
+export function computeCrossings(mesh: FlatMesh, { maxSeconds, maxMemoryBytes = kDefaultMemoryBytes }: Limits): Uint32Array {
+  const args = [...argumentsOf(mesh), maxMemoryBytes];
+  const watch = { maxSeconds, explain: meshError };
+  return callCore(shared.meshes, 'sf_find_crossings', args, readCrossingsArrays, watch).arrays.pairs;
 }

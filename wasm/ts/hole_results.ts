@@ -20,6 +20,7 @@ import {
 import { carriedOn, tailsOf, weldedAttributes } from './attributes.js';
 import type { FlatMesh, FoundHoles, PatchWork } from './compute_holes.js';
 import { SoapfilmError } from './errors.js';
+import type { Patches } from './hole_crossings.js';
 import { report as reportError } from './report.js';
 import type {
   FilledHole,
@@ -149,7 +150,9 @@ export function partListeners(
 }
 
 /** The parts of the work, done, as one. */
-function joined(plan: FillPlan, parts: readonly FillArrays[], oldVertices: number, oldFaces: number) {
+export function patchesOf(mesh: FlatMesh, plan: FillPlan, parts: readonly FillArrays[]): Patches {
+  const oldVertices = mesh.positions.length / 3;
+  const oldFaces = mesh.faces.length / 3;
   const holes = [...plan.holes];
   const positions = new Float64Array(parts.reduce((sum, part) => sum + part.positions.length, 0));
   const faces = new Uint32Array(parts.reduce((sum, part) => sum + part.faces.length, 0));
@@ -186,15 +189,8 @@ function joined(plan: FillPlan, parts: readonly FillArrays[], oldVertices: numbe
 }
 
 /** The result, and the last call of `onProgress`. If that throws, its error is reported: the work is done. */
-export function filledOf(
-  mesh: FlatMesh,
-  plan: FillPlan,
-  parts: readonly FillArrays[],
-  { output, onProgress }: FillOptions,
-): FillResult {
-  const oldVertices = mesh.positions.length / 3;
-  const oldFaces = mesh.faces.length / 3;
-  const { holes, ...patches } = joined(plan, parts, oldVertices, oldFaces);
+export function filledOf(mesh: FlatMesh, plan: FillPlan, patches: Patches, { output, onProgress }: FillOptions): FillResult {
+  const { holes } = patches;
   const old = output === 'patches' ? { positions: new Float64Array(), faces: new Uint32Array() } : mesh;
   const positions = new (mesh.single ? Float32Array : Float64Array)(old.positions.length + patches.positions.length);
   const faces = new Uint32Array(old.faces.length + patches.faces.length);
@@ -210,6 +206,7 @@ export function filledOf(
     }
   }
   const { vertexMap } = plan.report;
+  const oldVertices = mesh.positions.length / 3;
   const added = patches.positions.length / 3;
   let attributes = mesh.attributes;
   if (attributes && vertexMap) attributes = weldedAttributes(attributes, vertexMap, oldVertices);
@@ -220,8 +217,8 @@ export function filledOf(
   return {
     mesh: { positions, faces, ...(attributes && { attributes }) },
     oldVertices,
-    oldFaces,
-    closed: holes.every(({ status }) => status === 'filled') && countLoops(plan.groups) === plan.report.loops.length,
+    oldFaces: mesh.faces.length / 3,
+    closed: holes.every(({ status }) => status === 'filled' || status === 'self-intersecting') && countLoops(plan.groups) === plan.report.loops.length,
     holes,
     defects: plan.report.defects,
     ...(vertexMap && { vertexMap }),

@@ -1,8 +1,9 @@
 // findHoles, fillHoles: check their arguments, and compute.
 import { optionsOf } from './check.js';
-import { computeHoles, computePatches } from './compute_holes.js';
+import { computeCrossings, computeHoles, computePatches } from './compute_holes.js';
+import { closePatches, withCrossings } from './hole_crossings.js';
 import { fillOptionsOf, flattenMesh, holeOptionsOf } from './hole_input.js';
-import { filledOf, partListeners, planOf, reportOf } from './hole_results.js';
+import { filledOf, partListeners, patchesOf, planOf, reportOf } from './hole_results.js';
 import { kFillOptions, kHoleOptions, limitsOf } from './options.js';
 import type { FillOptions, FillResult, HoleOptions, HoleReport, MeshInput } from './types.js';
 
@@ -32,5 +33,8 @@ export function fillHoles(mesh: MeshInput, options: FillOptions = {}): FillResul
   const plan = planOf(reportOf(found), given, flat.single);
   const [onProgress] = partListeners(plan, [plan.work], given.onProgress);
   const filled = computePatches(found.mesh, { ...limitsOf(given), work: plan.work, spentSeconds: found.seconds, onProgress });
-  return filledOf(found.mesh, plan, [filled.arrays], given);
+  let patches = patchesOf(found.mesh, plan, [filled.arrays]);
+  const close = closePatches(found.mesh, patches);
+  if (close) patches = withCrossings(patches, close, computeCrossings(close.mesh, limitsOf(given)));
+  return filledOf(found.mesh, plan, patches, given);
 }

@@ -3,7 +3,7 @@ import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
 import type { Modules } from './compile.js';
 import type { PolygonEditor } from './compute_edits.js';
 import type { FlatPolygons } from './flat_polygons.js';
-import type { computeHoles, computePatches } from './compute_holes.js';
+import type { computeCrossings, computeHoles, computePatches } from './compute_holes.js';
 import type { computeSmooth } from './compute_smooth.js';
 import type { computeSpan } from './compute_span.js';
 import type { PolygonsOptions, PolygonTriangulation, PolygonsTriangulation } from './types.js';
@@ -18,6 +18,7 @@ export interface Calls {
   readonly triangulatePolygons: (polygons: FlatPolygons, options: PolygonsOptions) => PolygonsTriangulation;
   readonly findHoles: typeof computeHoles;
   readonly fillHoles: typeof computePatches;
+  readonly crossings: typeof computeCrossings;
   readonly smoothSurface: typeof computeSmooth;
 }
 

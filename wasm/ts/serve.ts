@@ -1,6 +1,6 @@
 // The thread's side of the pool: runs the calls that it receives, one after the other, and keeps sessions.
 import { PolygonEditor } from './compute_edits.js';
-import { computeHoles, computePatches } from './compute_holes.js';
+import { computeCrossings, computeHoles, computePatches } from './compute_holes.js';
 import { computeSmooth } from './compute_smooth.js';
 import { computePolygons, triangulationOfOne } from './compute_polygons.js';
 import { computeSpan } from './compute_span.js';
@@ -31,6 +31,7 @@ const calls: Calls = {
   triangulatePolygons: (polygons, options) => computePolygons(polygons, options, true),
   findHoles: computeHoles,
   fillHoles: computePatches,
+  crossings: computeCrossings,
   smoothSurface: computeSmooth,
 };
 

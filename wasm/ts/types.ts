@@ -545,7 +545,7 @@ export interface FillResult {
   readonly oldFaces: number;
   /** With `weld`: `[n]` the number of each vertex in the welded mesh, which then is the old part. */
   readonly vertexMap?: Uint32Array;
-  /** Whether no hole was left, open rims neither. */
+  /** Whether no hole was left, open rims neither; patches may cross something. */
   readonly closed: boolean;
   /** By groups. */
   readonly holes: readonly FilledHole[];

@@ -2,8 +2,9 @@
 import type { SmoothArrays } from './border.js';
 import { optionsOf } from './check.js';
 import type { FilledHoles, FlatMesh, FoundHoles } from './compute_holes.js';
+import { closePatches, withCrossings } from './hole_crossings.js';
 import { fillOptionsOf, flattenMesh, holeOptionsOf } from './hole_input.js';
-import { filledOf, partListeners, partsOf, planOf, reportOf } from './hole_results.js';
+import { filledOf, partListeners, partsOf, patchesOf, planOf, reportOf } from './hole_results.js';
 import { kFillOptions, kHoleOptions, kSmoothOptions, limitsOf, signalOf } from './options.js';
 import type { Pool } from './pool.js';
 import { smoothOf, smoothWorkOf } from './smooth.js';
@@ -39,7 +40,14 @@ export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
         const patches = { ...limitsOf(given), work, spentSeconds: found.seconds };
         return pool.call('fillHoles', [meshes[i], patches], { signal: ends, onProgress: listeners[i] }) as Promise<FilledHoles>;
       });
-      return filledOf(filled[0]?.mesh ?? found.mesh, plan, filled.map(({ arrays }) => arrays), given);
+      const old = filled[0]?.mesh ?? found.mesh;
+      let patches = patchesOf(old, plan, filled.map(({ arrays }) => arrays));
+      const close = closePatches(old, patches);
+      if (close) {
+        const pairs = await pool.call('crossings', [close.mesh, limitsOf(given)], { signal });
+        patches = withCrossings(patches, close, pairs as Uint32Array);
+      }
+      return filledOf(old, plan, patches, given);
     },
     async smoothSurface(surface, options = {}) {
       const flat = flattenMesh(surface, true, 'surface');

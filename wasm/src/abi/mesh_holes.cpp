@@ -185,6 +185,27 @@ extern "C" SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount,
   return sf::endWith(outcome, where);
 }
 
+extern "C" SfStatus sf_find_crossings(const double* positions, uint32_t vertexCount,
+                                      const uint32_t* faces, uint32_t faceCount, double maxBytes,
+                                      SfPlace* where, SfResult** result) {
+  *result = nullptr;
+  if (!(maxBytes >= 0)) return sf::endWith({sf::Status::BadOption}, where);
+  sf::Work work = sf::hostWork(maxBytes);
+  sf::MeshView mesh;
+  sf::Outcome outcome = view(positions, vertexCount, faces, faceCount, mesh);
+  std::vector<sf::FacePair> found;
+  const size_t most = 10000;
+  if (outcome.ok() && !sf::findSelfIntersections(mesh, 0, faceCount, most, work, found))
+    outcome = {work.status()};
+  if (outcome.ok()) {
+    std::vector<uint32_t> pairs;
+    for (const sf::FacePair pair : found) pairs.insert(pairs.end(), {pair.first, pair.second});
+    *result = new SfResult(SfCrossingsArrayCount);
+    (*result)->put<SfCrossings_pairs>(std::move(pairs));
+  }
+  return sf::endWith(outcome, where);
+}
+
 extern "C" SfStatus sf_weld_mesh(const double* positions, uint32_t vertexCount,
                                  const uint32_t* faces, uint32_t faceCount, double radius,
                                  double maxBytes, SfPlace* where, SfResult** result) {

@@ -58,6 +58,9 @@ SF_STATE_ARRAYS(SF_ARRAY)
 #define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfHoles, type, name)
 SF_HOLES_ARRAYS(SF_ARRAY)
 #undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfCrossings, type, name)
+SF_CROSSINGS_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
 #define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfWeld, type, name)
 SF_WELD_ARRAYS(SF_ARRAY)
 #undef SF_ARRAY

@@ -1,0 +1,100 @@
+// Patches of different holes that cross each other: which are near enough to be tested, and what the test tells.
+import type { FlatMesh } from './compute_holes.js';
+import type { FilledHole } from './types.js';
+
+/** The new part of a filled mesh. */
+export interface Patches {
+  readonly holes: readonly FilledHole[];
+  /** Numbered on from the vertices of the mesh. */
+  readonly positions: Float64Array;
+  /** Numbered on from the faces of the mesh, with vertices of the whole. */
+  readonly faces: Uint32Array;
+}
+
+/** Patches whose boxes overlap, as a mesh of their own. */
+export interface ClosePatches {
+  readonly mesh: FlatMesh;
+  /** By its faces: their numbers in the filled mesh. */
+  readonly faces: Uint32Array;
+}
+
+/** Undefined if no two boxes overlap. Few do: then no more than the boxes is computed. */
+export function closePatches(old: FlatMesh, patches: Patches): ClosePatches | undefined {
+  const oldFaces = old.faces.length / 3;
+  const close = overlapping(patches.holes.filter(({ faces: [from, to] }) => from < to).map((hole) => [hole, boxOf(old, patches, hole)]));
+  if (close.length === 0) return undefined;
+  const numbers = new Map<number, number>();
+  const positions: number[] = [];
+  const faces: number[] = [];
+  const vertices: number[] = [];
+  for (const { faces: [from, to] } of close) {
+    for (let face = from; face < to; face++) {
+      faces.push(face);
+      for (const v of patches.faces.subarray(3 * (face - oldFaces), 3 * (face - oldFaces) + 3)) {
+        let number = numbers.get(v);
+        if (number === undefined) {
+          number = numbers.size;
+          numbers.set(v, number);
+          positions.push(...pointOf(old, patches, v));
+        }
+        vertices.push(number);
+      }
+    }
+  }
+  const mesh = { positions: Float64Array.from(positions), faces: Uint32Array.from(vertices), single: false };
+  return { mesh, faces: Uint32Array.from(faces) };
+}
+
+/** The patches with pairs of faces of different ones, of which each hole is told. */
+export function withCrossings(patches: Patches, close: ClosePatches, pairs: Uint32Array): Patches {
+  const more = patches.holes.map((): number[] => []);
+  const ofHole = (face: number): number => patches.holes.findIndex(({ faces: [from, to] }) => face >= from && face < to);
+  for (let i = 0; i < pairs.length; i += 2) {
+    const pair = [close.faces[pairs[i]], close.faces[pairs[i + 1]]];
+    const [one, other] = pair.map(ofHole);
+    // What crosses itself is known.
+    if (one === other) continue;
+    more[one].push(...pair);
+    more[other].push(pair[1], pair[0]);
+  }
+  const holes = patches.holes.map((hole, h): FilledHole => {
+    if (more[h].length === 0) return hole;
+    return { ...hole, status: 'self-intersecting', intersections: Uint32Array.from([...hole.intersections, ...more[h]]) };
+  });
+  return { ...patches, holes };
+}
+
+type Box = readonly [low: readonly number[], high: readonly number[]];
+
+function pointOf(old: FlatMesh, { positions }: Patches, vertex: number): Float64Array {
+  const at = 3 * vertex - old.positions.length;
+  return at < 0 ? old.positions.subarray(3 * vertex, 3 * vertex + 3) : positions.subarray(at, at + 3);
+}
+
+function boxOf(old: FlatMesh, patches: Patches, { faces: [from, to] }: FilledHole): Box {
+  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  for (const v of patches.faces.subarray(3 * from - old.faces.length, 3 * to - old.faces.length)) {
+    pointOf(old, patches, v).forEach((x, i) => {
+      low[i] = Math.min(low[i], x);
+      high[i] = Math.max(high[i], x);
+    });
+  }
+  return [low, high];
+}
+
+/** Those with a box that overlaps another's, swept along x. */
+function overlapping<T>(items: readonly (readonly [T, Box])[]): T[] {
+  const order = items.map((_, i) => i).sort((i, j) => items[i][1][0][0] - items[j][1][0][0]);
+  const isClose = items.map(() => false);
+  let open: number[] = [];
+  for (const i of order) {
+    const [low, high] = items[i][1];
+    open = open.filter((j) => items[j][1][1][0] >= low[0]);
+    for (const j of open) {
+      const [from, to] = items[j][1];
+      if (low[1] <= to[1] && from[1] <= high[1] && low[2] <= to[2] && from[2] <= high[2]) isClose[i] = isClose[j] = true;
+    }
+    open.push(i);
+  }
+  return items.filter((_, i) => isClose[i]).map(([item]) => item);
+}
