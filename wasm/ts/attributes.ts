@@ -80,7 +80,7 @@ function neighboursOf(old: number, added: number, faces: Uint32Array) {
   return { starts, neighbours };
 }
 
-/** Conjugate gradients for one number of each new vertex; new vertices begin with the mean of the old ones around. */
+/** Conjugate gradients for one number of each new vertex, from 0. */
 function solve(all: Float32Array, size: number, k: number, old: number, added: number, starts: Uint32Array, neighbours: Uint32Array): void {
   const x = new Float64Array(added);
   const rest = new Float64Array(added);

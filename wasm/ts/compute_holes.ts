@@ -62,24 +62,27 @@ export interface PatchOptions extends Limits {
   readonly onProgress?: ProgressListener | undefined;
 }
 
-/** Filled holes in the core's arrays, and the mesh. */
+/** Filled holes in the core's arrays, the mesh, and the seconds that are gone. */
 export interface FilledHoles {
   readonly arrays: FillArrays;
   readonly mesh: FlatMesh;
+  readonly spentSeconds: number;
 }
 
 export function computePatches(mesh: FlatMesh, options: PatchOptions): FilledHoles {
   const { work, maxMemoryBytes = kDefaultMemoryBytes, maxSeconds, spentSeconds, onProgress } = options;
   const { starts, loops, settings } = work;
+  const started = performance.now();
   const args = [...argumentsOf(mesh), starts, starts.length - 1, loops, settings, maxMemoryBytes];
   const watch = { maxSeconds, spentSeconds, onProgress, explain: meshError };
   const { arrays } = callCore(shared.meshes, 'sf_fill_holes', args, readFillArrays, watch);
-  return { arrays, mesh };
+  return { arrays, mesh, spentSeconds: spentSeconds + (performance.now() - started) / 1000 };
 }
 
 /** Pairs of faces of a mesh that intersect: [2p]. */
-export function computeCrossings(mesh: FlatMesh, { maxSeconds, maxMemoryBytes = kDefaultMemoryBytes }: Limits): Uint32Array {
+export function computeCrossings(mesh: FlatMesh, options: Omit<PatchOptions, 'work'>): Uint32Array {
+  const { maxSeconds, spentSeconds, maxMemoryBytes = kDefaultMemoryBytes } = options;
   const args = [...argumentsOf(mesh), maxMemoryBytes];
-  const watch = { maxSeconds, explain: meshError };
+  const watch = { maxSeconds, spentSeconds, explain: meshError };
   return callCore(shared.meshes, 'sf_find_crossings', args, readCrossingsArrays, watch).arrays.pairs;
 }

@@ -16,6 +16,8 @@ export interface ClosePatches {
   readonly mesh: FlatMesh;
   /** By its faces: their numbers in the filled mesh. */
   readonly faces: Uint32Array;
+  /** By its faces: the number of the hole. */
+  readonly holes: Uint32Array;
 }
 
 /** Undefined if no two boxes overlap. Few do: then no more than the boxes is computed. */
@@ -26,36 +28,37 @@ export function closePatches(old: FlatMesh, patches: Patches): ClosePatches | un
   const numbers = new Map<number, number>();
   const positions: number[] = [];
   const faces: number[] = [];
+  const holes: number[] = [];
   const vertices: number[] = [];
-  for (const { faces: [from, to] } of close) {
+  for (const { group, faces: [from, to] } of close) {
     for (let face = from; face < to; face++) {
       faces.push(face);
+      holes.push(group);
       for (const v of patches.faces.subarray(3 * (face - oldFaces), 3 * (face - oldFaces) + 3)) {
         let number = numbers.get(v);
         if (number === undefined) {
           number = numbers.size;
           numbers.set(v, number);
-          positions.push(...pointOf(old, patches, v));
+          for (let axis = 0; axis < 3; axis++) positions.push(coordinate(old, patches, 3 * v + axis));
         }
         vertices.push(number);
       }
     }
   }
   const mesh = { positions: Float64Array.from(positions), faces: Uint32Array.from(vertices), single: false };
-  return { mesh, faces: Uint32Array.from(faces) };
+  return { mesh, faces: Uint32Array.from(faces), holes: Uint32Array.from(holes) };
 }
 
 /** The patches with pairs of faces of different ones, of which each hole is told. */
 export function withCrossings(patches: Patches, close: ClosePatches, pairs: Uint32Array): Patches {
   const more = patches.holes.map((): number[] => []);
-  const ofHole = (face: number): number => patches.holes.findIndex(({ faces: [from, to] }) => face >= from && face < to);
   for (let i = 0; i < pairs.length; i += 2) {
-    const pair = [close.faces[pairs[i]], close.faces[pairs[i + 1]]];
-    const [one, other] = pair.map(ofHole);
+    const [a, b] = [pairs[i], pairs[i + 1]];
+    const [one, other] = [close.holes[a], close.holes[b]];
     // What crosses itself is known.
     if (one === other) continue;
-    more[one].push(...pair);
-    more[other].push(pair[1], pair[0]);
+    more[one].push(close.faces[a], close.faces[b]);
+    more[other].push(close.faces[b], close.faces[a]);
   }
   const holes = patches.holes.map((hole, h): FilledHole => {
     if (more[h].length === 0) return hole;
@@ -66,18 +69,18 @@ export function withCrossings(patches: Patches, close: ClosePatches, pairs: Uint
 
 type Box = readonly [low: readonly number[], high: readonly number[]];
 
-function pointOf(old: FlatMesh, { positions }: Patches, vertex: number): Float64Array {
-  const at = 3 * vertex - old.positions.length;
-  return at < 0 ? old.positions.subarray(3 * vertex, 3 * vertex + 3) : positions.subarray(at, at + 3);
-}
+/** A number of the filled mesh's positions. */
+const coordinate = (old: FlatMesh, { positions }: Patches, i: number): number =>
+  i < old.positions.length ? old.positions[i] : positions[i - old.positions.length];
 
 function boxOf(old: FlatMesh, patches: Patches, { faces: [from, to] }: FilledHole): Box {
   const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
   for (const v of patches.faces.subarray(3 * from - old.faces.length, 3 * to - old.faces.length)) {
-    pointOf(old, patches, v).forEach((x, i) => {
-      low[i] = Math.min(low[i], x);
-      high[i] = Math.max(high[i], x);
-    });
+    for (let axis = 0; axis < 3; axis++) {
+      const x = coordinate(old, patches, 3 * v + axis);
+      if (x < low[axis]) low[axis] = x;
+      if (x > high[axis]) high[axis] = x;
+    }
   }
   return [low, high];
 }

@@ -35,6 +35,6 @@ export function fillHoles(mesh: MeshInput, options: FillOptions = {}): FillResul
   const filled = computePatches(found.mesh, { ...limitsOf(given), work: plan.work, spentSeconds: found.seconds, onProgress });
   let patches = patchesOf(found.mesh, plan, [filled.arrays]);
   const close = closePatches(found.mesh, patches);
-  if (close) patches = withCrossings(patches, close, computeCrossings(close.mesh, limitsOf(given)));
+  if (close) patches = withCrossings(patches, close, computeCrossings(close.mesh, { ...limitsOf(given), spentSeconds: filled.spentSeconds }));
   return filledOf(found.mesh, plan, patches, given);
 }

@@ -18,7 +18,7 @@ export interface Calls {
   readonly triangulatePolygons: (polygons: FlatPolygons, options: PolygonsOptions) => PolygonsTriangulation;
   readonly findHoles: typeof computeHoles;
   readonly fillHoles: typeof computePatches;
-  readonly crossings: typeof computeCrossings;
+  readonly findCrossings: typeof computeCrossings;
   readonly smoothSurface: typeof computeSmooth;
 }
 

@@ -31,7 +31,7 @@ const calls: Calls = {
   triangulatePolygons: (polygons, options) => computePolygons(polygons, options, true),
   findHoles: computeHoles,
   fillHoles: computePatches,
-  crossings: computeCrossings,
+  findCrossings: computeCrossings,
   smoothSurface: computeSmooth,
 };
 

@@ -44,7 +44,8 @@ export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
       let patches = patchesOf(old, plan, filled.map(({ arrays }) => arrays));
       const close = closePatches(old, patches);
       if (close) {
-        const pairs = await pool.call('crossings', [close.mesh, limitsOf(given)], { signal });
+        const limits = { ...limitsOf(given), spentSeconds: Math.max(...filled.map(({ spentSeconds }) => spentSeconds)) };
+        const pairs = await pool.call('findCrossings', [close.mesh, limits], { signal });
         patches = withCrossings(patches, close, pairs as Uint32Array);
       }
       return filledOf(old, plan, patches, given);

@@ -22,9 +22,6 @@ namespace {
 
 const double kPi = std::acos(-1.0);
 
-auto cap(double degrees) {
-  return [c = std::cos(degrees * kPi / 180)](Vec3 p) { return p.z / length(p) > c; };
-}
 double toSphere(Vec3 p) { return std::fabs(length(p) - 1); }
 
 LocalSurface smoothed(const LocalSurface& before, uint32_t order, Fairness* fairness = nullptr) {

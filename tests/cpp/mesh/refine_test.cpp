@@ -16,12 +16,6 @@ using sf::Work;
 
 namespace {
 
-const double kPi = std::acos(-1.0);
-
-auto cap(double degrees) {
-  return [c = std::cos(degrees * kPi / 180)](Vec3 p) { return p.z / length(p) > c; };
-}
-
 /// What refining must not change.
 void checkFixed(const LocalSurface& before, const LocalSurface& after) {
   CHECK(after.fixedVertices == before.fixedVertices);

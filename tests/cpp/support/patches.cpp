@@ -263,6 +263,10 @@ Vec3 vertexOf(const sf::LocalSurface& s, size_t h) {
 }
 }  // namespace
 
+std::function<bool(Vec3)> cap(double degrees) {
+  return [c = std::cos(degrees * kPi / 180)](Vec3 p) { return p.z / length(p) > c; };
+}
+
 double patchError(const sf::LocalSurface& surface, const std::function<double(Vec3)>& distance) {
   double sum = 0, area = 0;
   for (size_t t = 3 * size_t(surface.fixedTriangles); t < surface.triangles.size(); t += 3) {

@@ -47,6 +47,9 @@ Hole fillLoops(const Sheet& mesh, const std::vector<std::vector<uint32_t>>& loop
 /// with spanLoops. `rings` of triangles around it are kept.
 Hole cutHole(const Sheet& sheet, const std::function<bool(sf::Vec3)>& region, uint32_t rings = 5);
 
+/// What is within so many degrees of the z axis, for `cutHole`.
+std::function<bool(sf::Vec3)> cap(double degrees);
+
 /// Root mean square of a distance over the patch: at the centroids and vertices of its triangles, by area.
 double patchError(const sf::LocalSurface& surface, const std::function<double(sf::Vec3)>& distance);
 

@@ -4,6 +4,8 @@
 
 namespace sf {
 
+constexpr double kPi = 3.14159265358979323846;
+
 struct Vec3 {
   double x, y, z;
 };

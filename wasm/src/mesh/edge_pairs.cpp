@@ -6,7 +6,6 @@
 namespace sf {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 // Radians: how much two faces may bend and still belong together, what it costs that they are wound
 // against each other, and how much worse the second best has to be.
 constexpr double kLargestMisfit = 2.5, kUnlikeWindings = 2, kMargin = 0.15;

@@ -11,7 +11,6 @@
 namespace sf {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// How many rims that meet at a vertex are paired in the best way; more are paired one by one.
 constexpr uint32_t kMostTried = 6;
 /// How far the normal of a face without area is looked for among its neighbours.

@@ -11,7 +11,6 @@
 namespace sf {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Bodies rounder than this (Body::roundness) are no sheets: half a sphere has .59, a cap of
 /// it as high as half its radius .29, one of .3 radii .17.
 constexpr double kRoundBody = 0.2;

@@ -12,7 +12,6 @@
 
 namespace sf {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Worst angles that differ by less count as tied.
 constexpr double kAngleTie = 1e-10;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
