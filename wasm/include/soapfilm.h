@@ -211,7 +211,7 @@ SF_API(sf_find_holes)
 SfStatus sf_find_holes(const double* positions, uint32_t vertexCount, const uint32_t* faces,
                        uint32_t faceCount, double maxBytes, SfPlace* where, SfResult** result);
 
-/// Makes vertices one that are within `radius` of each other; 0: at the same place.
+/// Welds each vertex to the first one within `radius` that was not welded itself; 0: at the same place.
 ///   radius   finite, not negative; the rest as for sf_find_holes
 ///   result   out: SF_WELD_ARRAYS; null unless the status is Ok
 SF_API(sf_weld_mesh)
@@ -229,7 +229,7 @@ SfStatus sf_find_crossings(const double* positions, uint32_t vertexCount, const 
 /// Fills holes of a triangle mesh.
 ///   positions, vertexCount, faces, faceCount, maxBytes   as for sf_find_holes
 ///   groupStarts   [groupCount + 1] from 0, increasing: where the loops of each hole begin
-///   groupLoops    numbers of loops, as sf_find_holes has them, each at most once
+///   groupLoops    numbers of loops, as sf_find_holes has them, each at most once; else BadOption
 ///   settings      [groupCount] one for each hole
 ///   where         out: as for sf_find_holes
 ///   result        out: SF_FILL_ARRAYS; null unless the status is Ok
@@ -241,7 +241,7 @@ SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount, const uint
 
 /// Smooths a surface between its boundary: a soap film, or a plate.
 ///   positions, vertexCount, triangles, triangleCount   manifold, oriented, with a boundary
-///   where    out: the vertex at fault; for BadMesh, the triangle as `vertex`
+///   where    out: the vertex at fault; for BadMesh and BadSurface, the triangle as `vertex`
 ///   result   out: SF_SMOOTH_ARRAYS; null unless the status is Ok
 SF_API(sf_smooth_surface)
 SfStatus sf_smooth_surface(const double* positions, uint32_t vertexCount, const uint32_t* triangles,

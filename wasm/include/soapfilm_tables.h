@@ -34,7 +34,8 @@
   X(HolesOverlap, 17, "polygons: two holes cross or have an edge in common")                \
   X(NestedHole, 18, "polygons: a hole lies inside another")                                 \
   X(DegeneratePolygon, 19, "polygons: a ring has fewer than 3 distinct points, or a spike") \
-  X(BadMesh, 20, "meshes: a face has a vertex that is not there")
+  X(BadMesh, 20, "meshes: a face has a vertex that is not there")                           \
+  X(BadSurface, 21, "surfaces: a triangle keeps it from being manifold, oriented and bounded")
 
 /* The place in the input that a status is about. A field that does not apply is 0xFFFFFFFF. */
 #define SF_PLACE_RECORD(X)                                                          \
@@ -204,7 +205,7 @@
   X(double, length, "of the loop")                           \
   X(double, diameter, "the largest distance in it")          \
   X(double, openness, "share of its length, facing nothing") \
-  X(double, component, "of the faces along it")
+  X(double, component, "number of the component of the faces along it")
 
 #define SF_GROUP_KIND_CHOICES(X) \
   X(Alone, 0, "alone")           \
@@ -283,20 +284,21 @@
   X(double, positions, "[3a] the vertices of all patches, numbered from n on") \
   X(uint32_t, faces, "[3b] the faces of all patches")                          \
   X(SfFilledFacts, holes, "[g] by groups")                                     \
-  X(uint32_t, pairs, "[2p] faces of the filled mesh that intersect, by groups")
+  X(uint32_t, pairs,                                                           \
+    "[2p] by groups: faces of the filled mesh that intersect, but for those of two patches")
 
-#define SF_FILLED_FACTS_RECORD(X)                                          \
-  X(double, status, "a choice of SF_FILL_STATUS_CHOICES")                  \
-  X(double, reason, "a choice of SF_FILL_REASON_CHOICES")                  \
-  X(double, cost, "of the surface before it was refined")                  \
-  X(double, lowerBound, "proven, on that cost")                            \
-  X(double, optimal, "1 if that surface is proven to be the best, else 0") \
-  X(double, rimAngleBefore, "mean angle along the rim, before refining")   \
-  X(double, rimAngleAfter, "and after fairing")                            \
-  X(double, fairnessUsed, "the order of the fairing, 0 if there was none") \
-  X(double, movedLess, "share of the fairing that was taken back")         \
-  X(double, firstFace, "its first face in the filled mesh")                \
-  X(double, endFace, "the one after its last")                             \
+#define SF_FILLED_FACTS_RECORD(X)                                                 \
+  X(double, status, "a choice of SF_FILL_STATUS_CHOICES")                         \
+  X(double, reason, "a choice of SF_FILL_REASON_CHOICES")                         \
+  X(double, cost, "of the surface before it was refined")                         \
+  X(double, lowerBound, "proven, on that cost")                                   \
+  X(double, optimal, "1 if that surface is proven to be the best, else 0")        \
+  X(double, rimAngleBefore, "radians: mean angle along the rim, before refining") \
+  X(double, rimAngleAfter, "the same after fairing")                              \
+  X(double, fairnessUsed, "the order of the fairing, 0 if there was none")        \
+  X(double, movedLess, "share of the fairing that was taken back")                \
+  X(double, firstFace, "its first face in the filled mesh")                       \
+  X(double, endFace, "the one after its last")                                    \
   X(double, pairs, "how many pairs of faces intersect")
 
 /* sf_smooth_surface */

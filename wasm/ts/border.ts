@@ -50,6 +50,8 @@ export const Status = {
   DegeneratePolygon: 19,
   /** meshes: a face has a vertex that is not there */
   BadMesh: 20,
+  /** surfaces: a triangle keeps it from being manifold, oriented and bounded */
+  BadSurface: 21,
 } as const;
 
 export interface Place {
@@ -434,7 +436,7 @@ export interface LoopFacts {
   readonly diameter: number;
   /** share of its length, facing nothing */
   readonly openness: number;
-  /** of the faces along it */
+  /** number of the component of the faces along it */
   readonly component: number;
 }
 
@@ -565,7 +567,7 @@ export interface FillArrays {
   readonly faces: Uint32Array;
   /** FilledFacts: [g] by groups */
   readonly holes: Float64Array;
-  /** [2p] faces of the filled mesh that intersect, by groups */
+  /** [2p] by groups: faces of the filled mesh that intersect, but for those of two patches */
   readonly pairs: Uint32Array;
 }
 
@@ -587,9 +589,9 @@ export interface FilledFacts {
   readonly lowerBound: number;
   /** 1 if that surface is proven to be the best, else 0 */
   readonly optimal: number;
-  /** mean angle along the rim, before refining */
+  /** radians: mean angle along the rim, before refining */
   readonly rimAngleBefore: number;
-  /** and after fairing */
+  /** the same after fairing */
   readonly rimAngleAfter: number;
   /** the order of the fairing, 0 if there was none */
   readonly fairnessUsed: number;

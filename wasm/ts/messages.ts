@@ -87,6 +87,11 @@ const table: Readonly<Record<Failure, readonly [ErrorCode, (place: ErrorPlace) =
         : `the edges at ${first(place)} leave it in one direction, as a spike`,
   ],
   BadMesh: ['bad-mesh', ({ face }) => `face ${face} has a vertex that is not there`],
+  BadSurface: [
+    'bad-mesh',
+    ({ face }) =>
+      `face ${face} keeps the surface from being manifold, of one orientation and with a boundary in each part`,
+  ],
 };
 
 const byStatus = new Map<number, (typeof table)[Failure]>(
@@ -124,6 +129,6 @@ export function ringError(status: number, where: Place, more?: ErrorPlace): Soap
 
 /** The error for a mesh, of which a vertex or a face is at fault. */
 export function meshError(status: number, where: Place): SoapfilmError {
-  if (status !== Status.BadMesh) return statusError(status, where);
+  if (status !== Status.BadMesh && status !== Status.BadSurface) return statusError(status, where);
   return statusError(status, { ...where, vertex: kNone }, 'loop', { face: where.vertex });
 }

@@ -320,11 +320,12 @@ TEST_CASE("checkMesh: the first vertex that is not finite, then the first face o
   TestMesh mesh = sphereMesh(1);
   CHECK(checkMesh(mesh.view()).ok());
   mesh.faces[17] = mesh.vertexCount();
-  CHECK(checkMesh(mesh.view()).face == 5);
+  CHECK(checkMesh(mesh.view()).status == Status::BadMesh);
+  CHECK(checkMesh(mesh.view()).vertex == 5);
   for (const double bad : {std::nan(""), HUGE_VAL, -1e151}) {
     mesh.positions[3 * 11 + 1] = bad;
     CHECK(checkMesh(mesh.view()).vertex == 11);
-    CHECK(checkMesh(mesh.view()).face == kNone);
+    CHECK(checkMesh(mesh.view()).status == Status::NotFinite);
   }
 }
 

@@ -168,7 +168,7 @@ TEST_CASE("fair: roughness tells noise from curvature") {
   CHECK(roughnessOf(cutHole(noisy, [](Vec3 p) { return length(p) < 0.5; })) > sf::kRough);
   Work work;
   uint32_t order;
-  CHECK(sf::findFairOrder(cutHole(noisy, [](Vec3 p) { return length(p) < 0.5; }).surface, 0, work,
+  CHECK(sf::findFairOrder(cutHole(noisy, [](Vec3 p) { return length(p) < 0.5; }).surface, work,
                           order));
   CHECK(order == 2);
 }

@@ -167,6 +167,46 @@ TEST_CASE("fill: no refining, no fairing, and only so many vertices") {
   CHECK(fillAll(cut, options).holes[0].fairnessUsed == 2);
 }
 
+TEST_CASE("fill: never more than so many vertices, on creases and on edges that are split") {
+  FillOptions options;
+  // Creases part the hole in three.
+  const TestMesh box = without(boxMesh(12), isNear({1, 1, 1}, 0.45));
+  // Two holes that share two vertices, so that no patch may have the edge between these.
+  TestMesh shared;
+  for (const Vec3 p : {Vec3{-.19, -.878, -2.109},
+                       {-.632, -.738, -1.696},
+                       {-.358, -1.018, -1.481},
+                       {.26, -1.055, -1.542},
+                       {-.875, -.475, -1.18},
+                       {-.713, -.906, -1.151},
+                       {-.204, -.861, -1.132},
+                       {-.555, -.695, -.915}})
+    shared.addVertex(p);
+  for (const auto& f :
+       {std::array<uint32_t, 3>{0, 2, 1}, {1, 5, 4}, {1, 2, 6}, {2, 3, 6}, {5, 6, 7}})
+    shared.addFace(f[0], f[1], f[2]);
+  uint32_t filledOnes = 0;
+  for (const TestMesh* mesh : std::array<const TestMesh*, 2>{&box, &shared})
+    for (const double density : {0.0, 1.4, 3.0})
+      for (uint32_t most = 0; most < 12; ++most) {
+        CAPTURE(density);
+        CAPTURE(most);
+        options.density = density, options.maxNewVertices = most;
+        const Filled filled = fillAll(*mesh, options, true);
+        CHECK(filled.mesh.vertexCount() <= mesh->vertexCount() + most * filled.holes.size());
+        for (const FilledHole& hole : filled.holes) {
+          const bool isFilled = hole.status != FillStatus::Failed;
+          filledOnes += isFilled;
+          CHECK((isFilled || hole.reason == FillReason::DuplicateFace));
+          // A few vertices more do for any of them.
+          CHECK((isFilled || most < 4));
+        }
+        if (filled.holes[0].status != FillStatus::Failed && filled.holes.size() == 1)
+          CHECK(openOrTwisted(filled.mesh) == 0);
+      }
+  CHECK(filledOnes > 50);
+}
+
 TEST_CASE("fill: what cannot be filled says why, and the next hole is filled") {
   // A triangle alone: the face on its rim would be the same as it is.
   TestMesh triangle;

@@ -13,8 +13,6 @@ using namespace sftest;
 
 namespace {
 
-const double kPi = std::acos(-1.0);
-
 struct Found {
   Adjacency adjacency;
   Rims rims;

@@ -26,10 +26,13 @@ SmoothSurface smoothed(const TestMesh& mesh, const SmoothOptions& options) {
   return result;
 }
 
-Status statusOf(const TestMesh& mesh) {
+/// The face that keeps a mesh from being smoothed, or kNone.
+uint32_t faultOf(const TestMesh& mesh) {
   Work work;
   SmoothSurface result;
-  return smoothSurface(mesh.view(), {}, work, result).status;
+  const Outcome outcome = smoothSurface(mesh.view(), {}, work, result);
+  CHECK(outcome.status == (outcome.vertex == kNone ? Status::Ok : Status::BadSurface));
+  return outcome.vertex;
 }
 
 }  // namespace
@@ -73,11 +76,23 @@ TEST_CASE("smoothSurface: over a flat boundary all kinds are flat") {
   }
 }
 
-TEST_CASE("smoothSurface: what is no such surface is a BadMesh, and nothing at all is nothing") {
-  CHECK(statusOf(sphereMesh(1)) == Status::BadMesh);
+TEST_CASE(
+    "smoothSurface: what is no such surface is told with a face, and nothing at all is nothing") {
+  CHECK(faultOf(sphereMesh(1)) == 0);
   TestMesh twice = saddleMesh(3, 0.2);
+  const uint32_t last = uint32_t(twice.faces.size() / 3);
   twice.addFace(twice.faces[0], twice.faces[1], twice.faces[2]);
-  CHECK(statusOf(twice) == Status::BadMesh);
-  CHECK(statusOf(moebiusMesh(12)) == Status::BadMesh);
-  CHECK(statusOf(TestMesh{}) == Status::Ok);
+  CHECK(faultOf(twice) == last);
+  CHECK(faultOf(moebiusMesh(12)) != kNone);
+  // A part without a boundary beside one with.
+  const TestMesh open = saddleMesh(3, 0.2);
+  CHECK(faultOf(together(open, sphereMesh(1))) == open.faces.size() / 3);
+  // Two triangles at one vertex, behind another part.
+  TestMesh bow = open;
+  const uint32_t n = uint32_t(bow.positions.size() / 3);
+  for (const double x : {0.0, 1.0, 2.0, -1.0, -2.0}) bow.addVertex({x, x * x, 5});
+  bow.addFace(n, n + 1, n + 2);
+  bow.addFace(n, n + 3, n + 4);
+  CHECK(faultOf(bow) == open.faces.size() / 3);
+  CHECK(faultOf(TestMesh{}) == kNone);
 }

@@ -1,5 +1,6 @@
-// sf_find_holes, sf_fill_holes: refuse input that has no meaning to the core, call it, pack the results.
+// sf_find_holes, sf_weld_mesh, sf_fill_holes, sf_find_crossings: refuse input that has no meaning to the core, call it, pack the results.
 #include "abi/host_work.h"
+#include "abi/mesh_input.h"
 #include "abi/result.h"
 #include "mesh/fill.h"
 #include "mesh/weld.h"
@@ -12,17 +13,6 @@ SF_TIE(isTied, sf::Fairing, SF_FAIRING_CHOICES)
 SF_TIE(isTied, sf::FillStatus, SF_FILL_STATUS_CHOICES)
 SF_TIE(isTied, sf::FillReason, SF_FILL_REASON_CHOICES)
 
-/// The mesh, if it is one.
-sf::Outcome view(const double* positions, uint32_t vertexCount, const uint32_t* faces,
-                 uint32_t faceCount, sf::MeshView& mesh) {
-  if (faceCount >= 1u << 30 || vertexCount >= 1u << 30) return {sf::Status::TooLarge};
-  mesh = {{positions, 3 * size_t(vertexCount)}, {faces, 3 * size_t(faceCount)}};
-  const sf::MeshFault fault = sf::checkMesh(mesh);
-  if (fault.vertex != sf::kNone) return {sf::Status::NotFinite, sf::kNone, fault.vertex};
-  if (fault.face != sf::kNone) return {sf::Status::BadMesh, sf::kNone, fault.face};
-  return {};
-}
-
 /// What finding and filling begin with.
 struct Found {
   sf::MeshView mesh;
@@ -32,7 +22,7 @@ struct Found {
 
 sf::Outcome find(const double* positions, uint32_t vertexCount, const uint32_t* faces,
                  uint32_t faceCount, sf::Work& work, sf::Charge& charge, Found& found) {
-  const sf::Outcome outcome = view(positions, vertexCount, faces, faceCount, found.mesh);
+  const sf::Outcome outcome = sf::viewMesh(positions, vertexCount, faces, faceCount, found.mesh);
   if (!outcome.ok()) return outcome;
   if (!sf::buildAdjacency(found.mesh, work, charge, found.adjacency) ||
       !sf::findRims(found.mesh, found.adjacency, work, charge, found.rims))
@@ -88,8 +78,7 @@ sf::FillOptions optionsOf(const SfPatchSettings& s) {
   options.density = s.density;
   options.crease = s.crease;
   options.inFloats = s.inFloats == 1;
-  const double most = 4294967295.0;
-  options.maxNewVertices = s.maxNewVertices < most ? uint32_t(s.maxNewVertices) : sf::kNone;
+  options.maxNewVertices = sf::vertexLimit(s.maxNewVertices);
   return options;
 }
 
@@ -173,12 +162,8 @@ extern "C" SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount,
   }
   if (outcome.ok()) {
     *result = new SfResult(SfFillArrayCount);
-    const auto copy = [](auto view) {
-      return std::vector<std::remove_const_t<std::remove_pointer_t<decltype(view.data())>>>(
-          view.begin(), view.end());
-    };
-    (*result)->put<SfFill_positions>(copy(filler.newPositions()));
-    (*result)->put<SfFill_faces>(copy(filler.newFaces()));
+    (*result)->put<SfFill_positions>(filler.takePositions());
+    (*result)->put<SfFill_faces>(filler.takeFaces());
     (*result)->put<SfFill_holes>(std::move(facts));
     (*result)->put<SfFill_pairs>(std::move(pairs));
   }
@@ -192,7 +177,7 @@ extern "C" SfStatus sf_find_crossings(const double* positions, uint32_t vertexCo
   if (!(maxBytes >= 0)) return sf::endWith({sf::Status::BadOption}, where);
   sf::Work work = sf::hostWork(maxBytes);
   sf::MeshView mesh;
-  sf::Outcome outcome = view(positions, vertexCount, faces, faceCount, mesh);
+  sf::Outcome outcome = sf::viewMesh(positions, vertexCount, faces, faceCount, mesh);
   std::vector<sf::FacePair> found;
   const size_t most = 10000;
   if (outcome.ok() && !sf::findSelfIntersections(mesh, 0, faceCount, most, work, found))
@@ -215,7 +200,7 @@ extern "C" SfStatus sf_weld_mesh(const double* positions, uint32_t vertexCount,
   sf::Work work = sf::hostWork(maxBytes);
   sf::Charge charge(work);
   sf::MeshView mesh;
-  sf::Outcome outcome = view(positions, vertexCount, faces, faceCount, mesh);
+  sf::Outcome outcome = sf::viewMesh(positions, vertexCount, faces, faceCount, mesh);
   sf::WeldedMesh welded;
   if (outcome.ok() && !sf::weldVertices(mesh, radius, work, charge, welded))
     outcome = {work.status()};

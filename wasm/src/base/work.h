@@ -46,7 +46,6 @@ class Work {
   /// [a, b] of the whole.
   void beginStage(double a, double b) {
     stageStart_ = a, stageEnd_ = b;
-    setEarlier(std::numeric_limits<double>::infinity(), 0);
     beginPart(0, 1, 0);
   }
   /// Begins a part of the work: the phases that follow fill the fractions [a, b] of the whole.

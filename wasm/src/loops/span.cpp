@@ -532,6 +532,8 @@ Outcome spanLoops(const LoopSet& loops, const SpanOptions& options, Work& work, 
   double least = 0;
   if (options.space == Space::Given && options.objective == Objective::Sum)
     for (const double w : options.triangleWeights) least += std::min(0.0, w);
+  // What else the work has spanned before is another problem.
+  work.setEarlier(std::numeric_limits<double>::infinity(), 0);
   work.beginPart(0, 1, 0, least);
   Outcome outcome = checkLoops(loops, true, work);
   if (outcome.ok()) outcome = checkOptions(loops, options);

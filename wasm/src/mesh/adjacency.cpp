@@ -331,11 +331,13 @@ uint32_t Adjacency::acrossSeam(uint32_t h) const {
   return low < seams.size() / 2 && seams[2 * low] == h ? seams[2 * low + 1] : kNone;
 }
 
-MeshFault checkMesh(const MeshView& mesh) {
+Outcome checkMesh(const MeshView& mesh) {
   for (size_t i = 0; i < mesh.positions.size(); ++i)
-    if (!(std::fabs(mesh.positions[i]) <= kLargestCoordinate)) return {uint32_t(i / 3), kNone};
+    if (!(std::fabs(mesh.positions[i]) <= kLargestCoordinate))
+      return {Status::NotFinite, kNone, uint32_t(i / 3)};
   for (size_t i = 0; i < mesh.faces.size(); ++i)
-    if (mesh.faces[i] >= mesh.positions.size() / 3) return {kNone, uint32_t(i / 3)};
+    if (mesh.faces[i] >= mesh.positions.size() / 3)
+      return {Status::BadMesh, kNone, uint32_t(i / 3)};
   return {};
 }
 

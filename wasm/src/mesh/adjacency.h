@@ -59,13 +59,9 @@ struct Adjacency {
   uint32_t acrossSeam(uint32_t h) const;
 };
 
-/// What makes a mesh unusable: the first vertex that is not finite, or beyond kLargestCoordinate;
-/// else the first face that names a vertex that is not there. O(n + m).
-struct MeshFault {
-  uint32_t vertex = kNone, face = kNone;
-  bool ok() const { return vertex == kNone && face == kNone; }
-};
-MeshFault checkMesh(const MeshView& mesh);
+/// Errors: NotFinite with the first vertex that is not finite, or beyond kLargestCoordinate; else BadMesh
+/// with the first face that names a vertex that is not there, as `vertex`. O(n + m).
+Outcome checkMesh(const MeshView& mesh);
 
 /// Powers of two bring positions to about unit size, so that products neither over- nor underflow.
 class UnitScale {

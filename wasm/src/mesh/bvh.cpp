@@ -37,7 +37,7 @@ bool TriangleTree::build(MeshView mesh, uint32_t from, uint32_t to) {
   const size_t count = to - from;
   if (count == 0) return work_.going();
   Charge items(work_);
-  // Leaves hold two faces at least, unless there is but one in all.
+  // There are fewer nodes than faces, unless there is but one of each.
   if (!items.add(count * sizeof(Item)) || !reserve(faces_, count, charge_) ||
       !reserve(nodes_, count + 1, charge_))
     return false;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/bvh.h"
-
 namespace sf {
 namespace {
 

@@ -5,6 +5,7 @@
 #include "base/charge.h"
 #include "base/vec.h"
 #include "mesh/fair_system.h"
+#include "mesh/mesh.h"
 #include "mesh/unit_box.h"
 #include "triangles/triangle_mesh.h"
 
@@ -15,6 +16,8 @@ namespace {
 constexpr double kFarthest = 1e3;
 // A step shorter than this, in edges of the patch, is the last one.
 constexpr double kLastStep = 0.02;
+// What lies less far from a plane, for the extent of a patch, lies in it.
+constexpr double kFlat = 1e-5;
 
 ArrayView<const uint32_t> surroundings(const LocalSurface& surface) {
   return ArrayView<const uint32_t>(surface.triangles).slice(0, 3 * size_t(surface.fixedTriangles));
@@ -23,9 +26,6 @@ ArrayView<const uint32_t> surroundings(const LocalSurface& surface) {
 class Fairing {
  public:
   Fairing(const LocalSurface& surface, Work& work) : surface_(surface), work_(work) { findNear(); }
-
-  /// Marks the vertices of the surroundings where faces meet at more than an angle.
-  bool findCreases(ArrayView<const Vec3> at, double angle);
 
   /// Solves `rounds` times, of the order asked for or the next lower one that works. Returns that order.
   uint32_t solve(const FairOptions& options, std::vector<Vec3>& at);
@@ -47,7 +47,6 @@ class Fairing {
   Work& work_;
   std::vector<uint32_t> near_;  // [3m] triangles that the system knows of
   std::vector<double> flat_;
-  std::vector<uint8_t> creased_;  // [n] or empty
   Laplacian laplacian_;
 };
 
@@ -69,27 +68,10 @@ void Fairing::findNear() {
       near_.insert(near_.end(), {t[h], t[h + 1], t[h + 2]});
 }
 
-bool Fairing::findCreases(ArrayView<const Vec3> at, double angle) {
-  const ArrayView<const uint32_t> around = surroundings(surface_);
-  std::vector<uint32_t> twins;
-  if (!findTwins(around, uint32_t(at.size()), work_, twins)) return false;
-  const auto normal = [&](uint32_t h) {
-    const uint32_t t = h - h % 3;
-    return cross(at[around[t + 1]] - at[around[t]], at[around[t + 2]] - at[around[t]]);
-  };
-  creased_.assign(at.size(), 0);
-  for (uint32_t h = 0; h < around.size(); ++h) {
-    if (twins[h] == kNone || twins[h] < h || angleBetween(normal(h), normal(twins[h])) <= angle)
-      continue;
-    creased_[around[h]] = creased_[around[nextInTriangle(h)]] = 1;
-  }
-  return true;
-}
-
 bool Fairing::measure(ArrayView<const Vec3> at) {
   flat_.clear();
   for (const Vec3& p : at) flat_.insert(flat_.end(), {p.x, p.y, p.z});
-  return buildLaplacian(flat_, near_, creased_, work_, laplacian_);
+  return buildLaplacian(flat_, near_, work_, laplacian_);
 }
 
 uint32_t Fairing::solve(const FairOptions& options, std::vector<Vec3>& at) {
@@ -147,7 +129,6 @@ Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairn
   std::vector<Vec3> at(n);
   for (size_t v = 0; v < n; ++v) at[v] = box.in(&surface.positions[3 * v]);
   Fairing fairing(surface, work);
-  if (options.crease > 0 && !fairing.findCreases(at, options.crease)) return work.status();
   uint32_t order = fairing.solve(options, at);
   if (order == 3 && options.curvatureSteps > 0 &&
       !fairing.leastVariation(options.curvatureSteps, at) && options.rounds == 0) {
@@ -182,7 +163,7 @@ bool roughness(const LocalSurface& surface, Work& work, double& result) {
   }
   const ArrayView<const uint32_t> around = surroundings(surface);
   Laplacian laplacian;
-  if (!buildLaplacian(flat, around, {}, work, laplacian)) return false;
+  if (!buildLaplacian(flat, around, work, laplacian)) return false;
   FairSystem system(laplacian, uint32_t(n), work);
   system.variation(at, around);
   double sum = 0;
@@ -197,13 +178,10 @@ bool roughness(const LocalSurface& surface, Work& work, double& result) {
   return work.going();
 }
 
-bool isFlat(const LocalSurface& surface, double crease, double tolerance) {
+bool isFlat(const LocalSurface& surface, double crease) {
   const std::vector<uint32_t>& t = surface.triangles;
   const size_t n = surface.positions.size() / 3, fixed = 3 * size_t(surface.fixedTriangles);
-  const auto at = [&](uint32_t v) {
-    return Vec3{surface.positions[3 * v], surface.positions[3 * v + 1],
-                surface.positions[3 * v + 2]};
-  };
+  const auto at = [&](uint32_t v) { return pointAt(surface.positions, v); };
   std::vector<uint8_t> isPatch(n, 0);
   for (size_t h = fixed; h < t.size(); ++h) isPatch[t[h]] = 1;
   Vec3 across{0, 0, 0}, middle{0, 0, 0};
@@ -218,7 +196,7 @@ bool isFlat(const LocalSurface& surface, double crease, double tolerance) {
   for (uint32_t v = 0; v < n; ++v)
     if (isPatch[v]) extent = std::fmax(extent, distance(at(v), middle));
   const auto isInPlane = [&](uint32_t v) {
-    return std::fabs(dot(at(v) - middle, across)) <= tolerance * extent;
+    return std::fabs(dot(at(v) - middle, across)) <= kFlat * extent;
   };
   for (uint32_t v = 0; v < n; ++v)
     if (isPatch[v] && !isInPlane(v)) return false;

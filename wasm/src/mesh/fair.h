@@ -18,8 +18,6 @@ struct FairOptions {
   uint32_t order = 3;           // k: 1 least area, 2 least bending, 3 least variation of curvature
   uint32_t rounds = 3;          // how often weights are taken from the surface that came out
   uint32_t curvatureSteps = 4;  // k = 3: steps to the least variation of mean curvature, at most
-  double crease =
-      0;  // radians: where the surroundings turn more, curvature is not known; 0: nowhere
 };
 
 struct Fairness {
@@ -40,9 +38,8 @@ constexpr double kRough = 1.2;
 /// radians. Near 0 for smooth surfaces, however curved. 0 without surroundings. O(n) time. False when the work ended.
 bool roughness(const LocalSurface& surface, Work& work, double& result);
 
-/// Whether the patch and the triangles along its rim lie in one plane, within `tolerance` of the patch's extent: it
-/// is then exact, and nothing should bend it. Up to three quarters of the rim may be a crease instead, where the
+/// Whether the patch and the triangles along its rim lie in one plane, but for rounding: it is then exact, and nothing should bend it. Up to three quarters of the rim may be a crease instead, where the
 /// surface turns by more than `crease` radians (0: none).
-bool isFlat(const LocalSurface& surface, double crease = 0.7, double tolerance = 1e-5);
+bool isFlat(const LocalSurface& surface, double crease = 0.7);
 
 }  // namespace sf

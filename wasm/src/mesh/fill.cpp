@@ -57,7 +57,6 @@ struct Corner {
 struct HoleFiller::Hole {
   std::vector<Corner> corners;     // loop after loop, as faces that fill them run
   std::vector<uint32_t> starts;    // [k+1] in `corners`
-  double crease = 0;               // of a part: the angle of the creases around it
   bool crossesSeam = false;        // one of its rims does
   bool isPart = false;             // between creases, which bound what is around it as well
   std::vector<uint32_t> vertices;  // of the filled mesh: the fixed vertices, corners first
@@ -208,19 +207,34 @@ bool HoleFiller::isBorderTaken(const Hole& hole) const {
   return false;
 }
 
-/// Splits edges of the patch between vertices of the rims that the mesh has already, or that another patch may
-/// have, so that no edge gets more than two faces. The shape stays as it is.
+/// Whether an edge of the patch runs between two corners, and is in the mesh already or may be in another patch.
+bool HoleFiller::isTakenChord(const Hole& hole, const std::vector<uint32_t>& next, uint32_t a,
+                              uint32_t b) const {
+  const size_t corners = hole.corners.size();
+  if (a >= corners || b >= corners || next[a] == b || next[b] == a) return false;
+  const bool isAlongBorder = hole.isPart && hole.isBetween(a) && hole.isBetween(b);
+  return isAlongBorder || isTaken(hole.vertices[a], hole.vertices[b]);
+}
+
+uint32_t HoleFiller::countTakenChords(const Hole& hole) const {
+  const LocalSurface& s = hole.surface;
+  const std::vector<uint32_t> next = hole.nextCorners();
+  uint32_t halves = 0;
+  for (size_t t = 3 * size_t(s.fixedTriangles); t < s.triangles.size(); t += 3)
+    for (int k = 0; k < 3; ++k)
+      halves += isTakenChord(hole, next, s.triangles[t + k], s.triangles[t + (k + 1) % 3]);
+  return halves / 2;
+}
+
+/// Splits taken chords, so that no edge gets more than two faces. The shape stays as it is.
 void HoleFiller::splitChords(Hole& hole, bool inFloats) {
   LocalSurface& s = hole.surface;
-  const uint32_t corners = uint32_t(hole.corners.size());
   const std::vector<uint32_t> next = hole.nextCorners();
   // The triangles grow while they are looked at: halves are looked at again.
   for (size_t t = 3 * size_t(s.fixedTriangles); t < s.triangles.size(); t += 3)
     for (int k = 0; k < 3; ++k) {
       const uint32_t a = s.triangles[t + k], b = s.triangles[t + (k + 1) % 3];
-      if (a >= corners || b >= corners || next[a] == b || next[b] == a) continue;
-      const bool isAlongBorder = hole.isPart && hole.isBetween(a) && hole.isBetween(b);
-      if (!isAlongBorder && !isTaken(hole.vertices[a], hole.vertices[b])) continue;
+      if (!isTakenChord(hole, next, a, b)) continue;
       const uint32_t middle = uint32_t(s.positions.size() / 3);
       const Vec3 m = 0.5 * (pointAt(s.positions, a) + pointAt(s.positions, b));
       for (const double x : {m.x, m.y, m.z}) s.positions.push_back(inFloats ? double(float(x)) : x);
@@ -258,10 +272,10 @@ void HoleFiller::takeRings(Hole& hole, std::vector<uint32_t>& faces) {
 }
 
 /// The faces beside the rim and some steps further, not across creases.
-void HoleFiller::takeSide(Hole& hole, std::vector<uint32_t>& faces) {
+void HoleFiller::takeSide(Hole& hole, double crease, std::vector<uint32_t>& faces) {
   for (const Corner& corner : hole.corners)
     if (corner.edge != kNone) faces.push_back(rims_.halves[corner.edge] / 3);
-  const Creases creases(mesh_, adjacency_, fanStarts_, fans_, hole.crease);
+  const Creases creases(mesh_, adjacency_, fanStarts_, fans_, crease);
   std::vector<uint32_t> known(faces);
   std::sort(known.begin(), known.end());
   size_t stepStart = 0;
@@ -298,7 +312,7 @@ Vec3 HoleFiller::point(uint32_t vertex) const {
 }
 
 /// Numbers the corners and the vertices around them, and lists the faces between.
-void HoleFiller::surround(Hole& hole) {
+void HoleFiller::surround(Hole& hole, double crease) {
   const uint32_t n = uint32_t(mesh_.positions.size() / 3);
   std::vector<uint32_t>& vertices = hole.vertices;
   for (const Corner& corner : hole.corners) vertices.push_back(corner.vertex);
@@ -307,7 +321,7 @@ void HoleFiller::surround(Hole& hole) {
     if (vertices[i] < n) local_[vertices[i]] = i;
   std::vector<uint32_t> faces;
   if (hole.isPart)
-    takeSide(hole, faces);
+    takeSide(hole, crease, faces);
   else
     takeRings(hole, faces);
   std::sort(faces.begin(), faces.end());
@@ -350,17 +364,13 @@ double HoleFiller::rimAngle(const Hole& hole, double* largest) const {
 }
 
 /// Pairs of a face of the patch and another, both numbered as in the filled mesh.
-bool HoleFiller::findPairs(const Hole& hole, size_t most, std::vector<FacePair>& pairs) {
+bool HoleFiller::findPairs(const Hole& hole, std::vector<FacePair>& pairs) {
+  PatchPairs found;
+  if (!findPatchPairs(hole.surface, mesh_, tree_, kMostPairs, work_, found)) return false;
   pairs.clear();
-  const LocalSurface& s = hole.surface;
-  const MeshView patch{s.positions, s.triangles};
-  const uint32_t from = s.fixedTriangles, to = uint32_t(s.triangles.size() / 3),
-                 first = faceCount();
-  std::vector<FacePair> own;
-  if (!findIntersections(patch, from, to, mesh_, tree_, most, work_, pairs)) return false;
-  if (!findSelfIntersections(patch, from, to, most, work_, own)) return false;
-  for (FacePair& p : pairs) p.first += first - from;
-  for (const FacePair p : own) pairs.push_back({p.first + first - from, p.second + first - from});
+  const uint32_t shift = faceCount() - hole.surface.fixedTriangles;
+  for (const FacePair p : found.others) pairs.push_back({p.first + shift, p.second});
+  for (const FacePair p : found.own) pairs.push_back({p.first + shift, p.second + shift});
   return true;
 }
 
@@ -430,6 +440,9 @@ Status HoleFiller::fillParts(const HoleParts& parts, const FillOptions& options,
   const std::vector<uint32_t>& between = parts.triangles;
   const bool isStitched = !between.empty();
   if (parts.parts.empty() && !isStitched) return Status::Ok;
+  FillOptions left = options;
+  if (parts.points.size() > left.maxNewVertices) return Status::Ok;
+  left.maxNewVertices -= uint32_t(parts.points.size());
   const size_t positions = newPositions_.size(), faces = newFaces_.size();
   const uint32_t firstPoint = vertexCount();
   result.firstFace = faceCount();
@@ -439,11 +452,10 @@ Status HoleFiller::fillParts(const HoleParts& parts, const FillOptions& options,
   newFaces_.insert(newFaces_.end(), between.begin(), between.end());
   Status status = Status::Ok;
   bool isGood = true, areOptimal = true;
-  double before = 0, after = 0, cost = 0, bound = 0;
+  double angleBefore = 0, angleAfter = 0, cost = 0, bound = 0;
   for (const auto& part : parts.parts) {
     Hole hole;
     hole.isPart = !isStitched;
-    hole.crease = options.crease;
     for (const PartCorner& c : part)
       hole.corners.push_back({c.vertex != kNone ? c.vertex : firstPoint + c.added, c.edge});
     hole.starts = {0, uint32_t(hole.corners.size())};
@@ -452,13 +464,15 @@ Status HoleFiller::fillParts(const HoleParts& parts, const FillOptions& options,
       break;
     }
     FilledHole filled;
-    status = fillPart(hole, options, filled);
+    const uint32_t before = vertexCount();
+    status = fillPart(hole, left, filled);
+    left.maxNewVertices -= vertexCount() - before;
     if (status != Status::Ok || filled.status != FillStatus::Filled) {
       isGood = false;
       break;
     }
-    before += filled.rimAngleBefore / double(parts.parts.size()),
-        after += filled.rimAngleAfter / double(parts.parts.size());
+    angleBefore += filled.rimAngleBefore / double(parts.parts.size()),
+        angleAfter += filled.rimAngleAfter / double(parts.parts.size());
     cost += filled.cost, bound += filled.lowerBound, areOptimal &= filled.optimal;
     result.fairnessUsed = std::max(result.fairnessUsed, filled.fairnessUsed);
     result.movedLess = std::max(result.movedLess, filled.movedLess);
@@ -475,45 +489,59 @@ Status HoleFiller::fillParts(const HoleParts& parts, const FillOptions& options,
   }
   result.status = FillStatus::Filled;
   if (isStitched) result.reason = FillReason::Stitched;
-  result.rimAngleBefore = before, result.rimAngleAfter = after;
+  result.rimAngleBefore = angleBefore, result.rimAngleAfter = angleAfter;
   result.cost = cost, result.lowerBound = bound, result.optimal = areOptimal;
   return Status::Ok;
 }
 
 /// Fills what is within some loops, and appends it.
 Status HoleFiller::fillPart(Hole& hole, const FillOptions& options, FilledHole& result) {
-  surround(hole);
+  surround(hole, options.crease);
   Status status = span(hole, options, result);
   if (status != Status::Ok || result.status == FillStatus::Failed) return status;
   double largest = 0;
   result.rimAngleBefore = rimAngle(hole, &largest);
 
   LocalSurface& surface = hole.surface;
-  FairOptions fairing;
-  fairing.order = 0;
+  const auto added = [&] { return surface.positions.size() / 3 - surface.fixedVertices; };
+  const uint32_t chords = countTakenChords(hole), most = options.maxNewVertices;
+  if (chords > most) {
+    result.status = FillStatus::Failed, result.reason = FillReason::DuplicateFace;
+    return Status::Ok;
+  }
   // What goes on everything around it as it was spanned, nothing should bend.
   const bool isExact = largest < kExact || isFlat(surface);
+  bool isClean = false;
   if (!isExact) {
-    if (options.fairing == Fairing::Auto && !findFairOrder(surface, 0, work_, fairing.order))
+    FairOptions fairing;
+    fairing.order = 0;
+    if (options.fairing == Fairing::Auto && !findFairOrder(surface, work_, fairing.order))
       return work_.status();
     if (options.fairing == Fairing::Bending) fairing.order = 2;
     if (options.fairing == Fairing::Curvature) fairing.order = 3;
     RefineOptions refining;
     refining.density = options.density;
-    refining.maxNewVertices = options.maxNewVertices;
+    refining.maxNewVertices = most == kNone ? kNone : most - chords;
+    LocalSurface spanned;
+    if (most != kNone) spanned = surface;
     Smoothed smoothed;
     status = smoothPatchApart(surface, refining, fairing, mesh_, tree_, options.inFloats, work_,
                               smoothed);
     if (status != Status::Ok) return status;
-    result.fairnessUsed = smoothed.fairness.order;
-    result.movedLess = 1 - smoothed.share;
+    if (most != kNone && added() + countTakenChords(hole) > most) {
+      // Refining has flipped more edges to where they have to be split: as it was spanned, there are few enough.
+      surface = std::move(spanned);
+    } else {
+      result.fairnessUsed = smoothed.fairness.order;
+      result.movedLess = 1 - smoothed.share;
+      isClean = smoothed.pairs == 0;
+    }
   }
+  const size_t before = added();
   splitChords(hole, options.inFloats);
-  if (surface.positions.size() / 3 - surface.fixedVertices > options.maxNewVertices) {
-    result.status = FillStatus::Failed, result.reason = FillReason::DuplicateFace;
-    return Status::Ok;
-  }
-  if (!findPairs(hole, kMostPairs, result.intersections)) return work_.status();
+  // Looked at already, unless vertices were put on chords, and rounded.
+  isClean = isClean && added() == before;
+  if (!isClean && !findPairs(hole, result.intersections)) return work_.status();
   if (!result.intersections.empty()) result.status = FillStatus::SelfIntersecting;
   result.rimAngleAfter = rimAngle(hole, nullptr);
   return append(hole) ? Status::Ok : work_.status();

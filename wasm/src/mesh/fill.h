@@ -25,7 +25,7 @@ struct FillOptions {
   Space space = Space::Auto;
   Fairing fairing = Fairing::Auto;
   double density = 1.4142135623730951;  // as in RefineOptions
-  uint32_t maxNewVertices = 0xFFFFFFFFu;
+  uint32_t maxNewVertices = kNone;      // on creases and chords too
   bool inFloats = false;  // whether coordinates of new vertices are rounded to single precision
   double crease = 0.698;  // edges between faces that differ by more, in radians, go on; 0: none do
 };
@@ -53,16 +53,16 @@ struct FilledHole {
   double rimAngleBefore = 0, rimAngleAfter = 0;  // mean angle to the faces along the rim, radians
   uint32_t fairnessUsed = 0;                     // k of the fairing, 0: none
   double movedLess = 0;                          // share of fairing that was taken back, 0 to 1
-  std::vector<FacePair> intersections;           // faces numbered as in the filled mesh
-  uint32_t firstFace = 0, endFace = 0;           // in the filled mesh
+  /// Faces numbered as in the filled mesh. Patches of other holes are not looked at.
+  std::vector<FacePair> intersections;
+  uint32_t firstFace = 0, endFace = 0;  // in the filled mesh
 };
 
 /// Fills the groups of one mesh, one after the other. The mesh and what was found in it must outlive it.
 class HoleFiller {
  public:
-  /// O(m log m) time, once for all holes.
   HoleFiller(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work);
-  /// False once the work has ended.
+  /// What all holes need. O(m log m) time. False once the work has ended.
   bool prepare();
 
   /// Fills a hole that is bounded by some rims. Its vertices and faces are appended.
@@ -71,6 +71,9 @@ class HoleFiller {
 
   ArrayView<const double> newPositions() const { return newPositions_; }  // [3a]
   ArrayView<const uint32_t> newFaces() const { return newFaces_; }        // [3b]
+  /// The same, moved out: the last that is asked for.
+  std::vector<double> takePositions() { return std::move(newPositions_); }
+  std::vector<uint32_t> takeFaces() { return std::move(newFaces_); }
 
  private:
   struct Hole;
@@ -78,13 +81,16 @@ class HoleFiller {
   Status fillParts(const HoleParts& parts, const FillOptions& options, FilledHole& result,
                    bool& isDone);
   Status span(Hole& hole, const FillOptions& options, FilledHole& result);
-  void surround(Hole& hole);
+  void surround(Hole& hole, double crease);
   void takeRings(Hole& hole, std::vector<uint32_t>& faces);
-  void takeSide(Hole& hole, std::vector<uint32_t>& faces);
+  void takeSide(Hole& hole, double crease, std::vector<uint32_t>& faces);
   bool append(const Hole& hole);
-  bool findPairs(const Hole& hole, size_t most, std::vector<FacePair>& pairs);
+  bool findPairs(const Hole& hole, std::vector<FacePair>& pairs);
   bool findOwnPairs(uint32_t from, uint32_t to, std::vector<FacePair>& pairs);
   double rimAngle(const Hole& hole, double* largest) const;
+  bool isTakenChord(const Hole& hole, const std::vector<uint32_t>& next, uint32_t a,
+                    uint32_t b) const;
+  uint32_t countTakenChords(const Hole& hole) const;
   void splitChords(Hole& hole, bool inFloats);
   bool isTaken(uint32_t a, uint32_t b) const;
   bool isBorderTaken(const Hole& hole) const;

@@ -5,6 +5,7 @@
 
 #include "base/charge.h"
 #include "base/vec.h"
+#include "mesh/mesh.h"
 #include "triangles/triangle_mesh.h"
 
 namespace sf {
@@ -70,9 +71,7 @@ bool Intrinsic::flip(uint32_t h) {
 void measure(ArrayView<const double> positions, Intrinsic& surface) {
   const std::vector<uint32_t>& corners = surface.mesh.corners;
   surface.lengths.resize(corners.size());
-  const auto at = [&](uint32_t v) {
-    return Vec3{positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]};
-  };
+  const auto at = [&](uint32_t v) { return pointAt(positions, v); };
   double sum = 0;
   for (uint32_t h = 0; h < corners.size(); ++h)
     sum += surface.lengths[h] = distance(at(corners[h]), at(corners[nextInTriangle(h)]));
@@ -164,7 +163,7 @@ bool assemble(const Intrinsic& surface, uint32_t n, ArrayView<const uint8_t> isL
 }  // namespace
 
 bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t> triangles,
-                    ArrayView<const uint8_t> creased, Work& work, Laplacian& result) {
+                    Work& work, Laplacian& result) {
   const uint32_t n = uint32_t(positions.size() / 3), m = uint32_t(triangles.size() / 3);
   Charge charge(work);
   // Corners, twins, lengths, the stack, and entries of one matrix, with the search for twins less.
@@ -179,8 +178,6 @@ bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t>
   for (uint32_t h = 0; h < 3 * m; ++h)
     if (surface.mesh.twins[h] == kNone)
       result.isBoundary[triangles[h]] = result.isBoundary[triangles[nextInTriangle(h)]] = 1;
-  for (size_t v = 0; v < creased.size(); ++v)
-    if (creased[v]) result.isBoundary[v] = 1;
   if (!makeDelaunay(surface, work)) return false;
 
   // Areas of Voronoi cells, which in a Delaunay triangulation are positive: with them the curvature of a sphere

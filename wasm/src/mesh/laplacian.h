@@ -29,9 +29,8 @@ struct Laplacian {
 /// Builds it. O(m) time but for flips, of which there are few on meshes that are nearly Delaunay.
 ///   positions  [3n]
 ///   triangles  [3m] consistently wound; degenerate ones do no harm
-///   creased    [n] or empty: more vertices to count as on the boundary
 /// False when the work ended.
 bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t> triangles,
-                    ArrayView<const uint8_t> creased, Work& work, Laplacian& result);
+                    Work& work, Laplacian& result);
 
 }  // namespace sf

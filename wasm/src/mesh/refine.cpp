@@ -4,6 +4,7 @@
 
 #include "base/charge.h"
 #include "base/vec.h"
+#include "mesh/mesh.h"
 #include "triangles/triangle_mesh.h"
 
 namespace sf {
@@ -113,9 +114,7 @@ bool Refinement::begin() {
   const size_t n = surface_.positions.size() / 3,
                corners = surface_.triangles.size() - 3 * size_t(surface_.fixedTriangles);
   if (!reserve(at_, n, charge_) || !charge_.add(8 * uint64_t(corners))) return false;
-  for (size_t v = 0; v < n; ++v)
-    at_.push_back(
-        {surface_.positions[3 * v], surface_.positions[3 * v + 1], surface_.positions[3 * v + 2]});
+  for (size_t v = 0; v < n; ++v) at_.push_back(pointAt(surface_.positions, v));
   mesh_.corners.assign(surface_.triangles.begin() + ptrdiff_t(3 * size_t(surface_.fixedTriangles)),
                        surface_.triangles.end());
   // Flips join vertices of the patch: other edges around it are not in the way.

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "base/charge.h"
-#include "mesh/intersect.h"
 
 namespace sf {
 namespace {
@@ -25,28 +24,30 @@ void roundToFloats(LocalSurface& surface) {
     surface.positions[i] = double(float(surface.positions[i]));
 }
 
-/// How many pairs of triangles intersect, one of them in the patch.
 bool countPairs(const LocalSurface& surface, MeshView mesh, const TriangleTree& tree, Work& work,
                 uint32_t& count) {
-  const MeshView own{surface.positions, surface.triangles};
-  const uint32_t from = surface.fixedTriangles, to = uint32_t(surface.triangles.size() / 3);
-  std::vector<FacePair> pairs;
-  if (!findSelfIntersections(own, from, to, kMostPairs, work, pairs) ||
-      !findIntersections(own, from, to, mesh, tree, kMostPairs, work, pairs))
-    return false;
-  count = uint32_t(pairs.size());
+  PatchPairs pairs;
+  if (!findPatchPairs(surface, mesh, tree, kMostPairs, work, pairs)) return false;
+  count = uint32_t(pairs.count());
   return true;
 }
 
 }  // namespace
 
-bool findFairOrder(const LocalSurface& surface, double crease, Work& work, uint32_t& order) {
-  order = 0;
-  if (isFlat(surface, crease > 0 ? crease : 0.7)) return work.going();
+bool findFairOrder(const LocalSurface& surface, Work& work, uint32_t& order) {
   double rough;
   if (!roughness(surface, work, rough)) return false;
   order = rough > kRough ? 2 : 3;
   return true;
+}
+
+bool findPatchPairs(const LocalSurface& surface, MeshView mesh, const TriangleTree& tree,
+                    size_t most, Work& work, PatchPairs& pairs) {
+  pairs = {};
+  const MeshView own{surface.positions, surface.triangles};
+  const uint32_t from = surface.fixedTriangles, to = uint32_t(surface.triangles.size() / 3);
+  return findSelfIntersections(own, from, to, most, work, pairs.own) &&
+         findIntersections(own, from, to, mesh, tree, most, work, pairs.others);
 }
 
 Status smoothPatch(LocalSurface& surface, const RefineOptions& refining, const FairOptions& fairing,

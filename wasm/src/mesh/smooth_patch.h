@@ -10,14 +10,25 @@
 #include "base/work.h"
 #include "mesh/bvh.h"
 #include "mesh/fair.h"
+#include "mesh/intersect.h"
 #include "mesh/local_surface.h"
 #include "mesh/refine.h"
 
 namespace sf {
 
-/// The order of fairing that fits the surroundings: 0 where the patch is flat and exact, 2 where they are rough, 3.
-/// False when the work ended.
-bool findFairOrder(const LocalSurface& surface, double crease, Work& work, uint32_t& order);
+/// The order of fairing that fits the surroundings: 2 where they are rough, else 3. False when the work ended.
+bool findFairOrder(const LocalSurface& surface, Work& work, uint32_t& order);
+
+/// Triangles of a patch, and what they intersect.
+struct PatchPairs {
+  std::vector<FacePair> own;     // two of the surface's triangles
+  std::vector<FacePair> others;  // one of the surface's, and a face of the mesh around
+  size_t count() const { return own.size() + others.size(); }
+};
+
+/// Finds them: of each kind `most` or a few more, and then no more. False when the work ended.
+bool findPatchPairs(const LocalSurface& surface, MeshView mesh, const TriangleTree& tree,
+                    size_t most, Work& work, PatchPairs& pairs);
 
 /// Refines and fairs. `fairing.order` 0 only refines, `refining.density` 0 only fairs.
 /// Errors: OutOfMemory, Stopped; the surface is then in between.

@@ -1,23 +1,45 @@
 #include "mesh/smooth_surface.h"
 
+#include <algorithm>
+
 #include "mesh/adjacency.h"
-#include "mesh/bvh.h"
 #include "mesh/smooth_patch.h"
 #include "mesh/soap_film.h"
 
 namespace sf {
 namespace {
 
-/// The first face that the surface cannot be made of, or kNone.
-uint32_t faultyFace(const Adjacency& adjacency) {
-  uint32_t first = kNone;
-  for (const Defect& defect : adjacency.defects) {
-    if (defect.kind == DefectKind::UnusedVertex) continue;
-    // Defects of vertices alone have no faces.
-    const uint32_t face = defect.faces.empty() ? 0 : defect.faces[0];
-    if (face < first) first = face;
+/// The first face with some vertices.
+uint32_t firstFaceWith(const MeshView& mesh, const std::vector<uint32_t>& vertices) {
+  for (uint32_t f = 0; f < mesh.faces.size() / 3; ++f) {
+    const uint32_t* c = mesh.faces.data() + 3 * size_t(f);
+    if (std::all_of(vertices.begin(), vertices.end(),
+                    [&](uint32_t v) { return v == c[0] || v == c[1] || v == c[2]; }))
+      return f;
   }
-  return first;
+  return kNone;
+}
+
+/// A face of a defect.
+uint32_t faceOf(const MeshView& mesh, const Defect& defect) {
+  if (!defect.faces.empty()) return defect.faces[0];
+  if (!defect.vertices.empty()) return firstFaceWith(mesh, {defect.vertices[0]});
+  return firstFaceWith(mesh, {defect.edges[0], defect.edges[1]});
+}
+
+/// The first face that keeps the mesh from being a manifold, oriented surface with a boundary in each part, or kNone.
+uint32_t faultyFace(const MeshView& mesh, const Adjacency& adjacency) {
+  uint32_t first = kNone;
+  for (const Defect& defect : adjacency.defects)
+    if (defect.kind != DefectKind::UnusedVertex) first = std::min(first, faceOf(mesh, defect));
+  if (first != kNone) return first;
+  std::vector<uint8_t> isBounded(adjacency.components, 0);
+  for (uint32_t h = 0; h < mesh.faces.size(); ++h)
+    if (adjacency.twins[h] == kNone) isBounded[adjacency.component[h / 3]] = 1;
+  // A closed part has nothing that holds it.
+  for (uint32_t f = 0; f < mesh.faces.size() / 3; ++f)
+    if (!isBounded[adjacency.component[f]]) return f;
+  return kNone;
 }
 
 }  // namespace
@@ -27,8 +49,8 @@ Outcome smoothSurface(const MeshView& mesh, const SmoothOptions& options, Work& 
   Charge charge(work);
   Adjacency adjacency;
   if (!buildAdjacency(mesh, work, charge, adjacency)) return {work.status()};
-  const uint32_t fault = faultyFace(adjacency);
-  if (fault != kNone) return {Status::BadMesh, kNone, fault};
+  const uint32_t fault = faultyFace(mesh, adjacency);
+  if (fault != kNone) return {Status::BadSurface, kNone, fault};
 
   // The boundary first.
   const size_t n = mesh.positions.size() / 3, m = mesh.faces.size() / 3;
@@ -45,8 +67,6 @@ Outcome smoothSurface(const MeshView& mesh, const SmoothOptions& options, Work& 
     if (adjacency.twins[h] == kNone)
       for (const uint32_t v : {adjacency.tail(h), adjacency.head(h)})
         if (add(v)) result.boundary.push_back(v);
-  // A closed surface has nothing that holds it.
-  if (result.boundary.empty() && m > 0) return {Status::BadMesh, kNone, 0};
   surface.fixedVertices = uint32_t(surface.positions.size() / 3);
   for (const uint32_t v : mesh.faces) add(v);
   for (const uint32_t v : mesh.faces) surface.triangles.push_back(number[v]);

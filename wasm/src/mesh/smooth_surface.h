@@ -31,7 +31,7 @@ struct SmoothSurface {
 
 /// Smooths a surface whose boundary stays where it is.
 ///   mesh  manifold, oriented, with a boundary; vertices of no triangle are left out
-/// Errors: BadMesh for what is not such, with the face as `vertex`; OutOfMemory, Stopped.
+/// Errors: BadSurface for what is not such, with the face as `vertex`; OutOfMemory, Stopped.
 Outcome smoothSurface(const MeshView& mesh, const SmoothOptions& options, Work& work,
                       SmoothSurface& result);
 

@@ -71,7 +71,7 @@ Status relaxToFilm(LocalSurface& surface, const FilmOptions& options, Work& work
     flat.clear();
     for (const Vec3& p : at) flat.insert(flat.end(), {p.x, p.y, p.z});
     Laplacian laplacian;
-    if (!buildLaplacian(flat, surface.triangles, {}, work, laplacian)) return work.status();
+    if (!buildLaplacian(flat, surface.triangles, work, laplacian)) return work.status();
     FairSystem system(laplacian, surface.fixedVertices, work);
     before = at;
     double most = 0;

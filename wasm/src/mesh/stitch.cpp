@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/sort.h"
-#include "mesh/bvh.h"
 
 namespace sf {
 namespace {
