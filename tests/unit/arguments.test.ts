@@ -276,6 +276,8 @@ describe('meshes with faults', () => {
     ['perHole', { perHole: { 2: {} } }],
     ['perHole', { perHole: { first: {} } }],
     ['perHole', { perHole: { '-1': {} } }],
+    ['perHole[__proto__]', { perHole: JSON.parse('{ "__proto__": {} }') as object }],
+    ['perHole[1].weights.angle', { perHole: { 1: { weights: { angle: 1 } } } }],
     ['perHole', { perHole: { 0: { fair: 1 } } }],
     ['density', { density: 101 }],
     ['fairness', { fairness: 3 }],
@@ -291,6 +293,12 @@ describe('meshes with faults', () => {
       expect(error).toMatchObject({ code: 'bad-option' });
       expect((error as SoapfilmError).message).toContain(name);
     }
+  });
+
+  test('weights of one hole: an error names it', () => {
+    const error = errorOf(() => fillHoles(kTwoHoles, { perHole: { 1: { weights: { area: -1 } } } }));
+    expect(error).toMatchObject({ code: 'bad-weights' });
+    expect(error.message).toContain('perHole[1].weights.area');
   });
 
   test.each([Float32Array, Float64Array])('%o: given back in its kind, and left as it is', async (Kind) => {

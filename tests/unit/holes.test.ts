@@ -1,6 +1,6 @@
 // findHoles, fillHoles: regions are cut out of surfaces that formulas give; what is filled in is closed, keeps the old
 // part to the bit, crosses nothing, and lies where the surface was.
-import { fillHoles, findHoles, load, type FillOptions, type Point, type Weights } from 'soapfilm';
+import { fillHoles, findHoles, load, type FillOptions, type MeshAttribute, type Point, type Weights } from 'soapfilm';
 import { createWorker, type Film } from 'soapfilm/worker';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { errorOf, rejectionOf } from '../support/errors.js';
@@ -457,6 +457,16 @@ describe('attributes', () => {
     expect(fillHoles(kTwoCaps).mesh.attributes).toBeUndefined();
   });
 
+  test('named as what objects inherit: kept like others', async () => {
+    const odd = { ...kTwoCaps, attributes: JSON.parse('{ "__proto__": 0, "constructor": 0 }') as Record<string, MeshAttribute> };
+    for (const name of Object.keys(odd.attributes)) Object.defineProperty(odd.attributes, name, { value: attributes.one });
+    for (const { mesh: filled } of [fillHoles(odd), await film.fillHoles(odd)]) {
+      const found = Object.entries(filled.attributes ?? {});
+      expect(found.map(([name]) => name)).toEqual(['__proto__', 'constructor']);
+      for (const [, { data }] of found) expect(data.length).toBe(filled.positions.length / 3);
+    }
+  });
+
   test('not finite, or of another length: bad-attributes, with their name', () => {
     for (const data of [new Float32Array(count - 1), new Float32Array(count).fill(NaN)]) {
       const error = errorOf(() => fillHoles({ ...kTwoCaps, attributes: { one: { data, size: 1 } } }));
@@ -538,6 +548,17 @@ describe('limits and listeners', () => {
         expect(of).toBe(6);
       });
     }
+  });
+
+  test('onProgress: the last call comes when all is done', () => {
+    const data = new Float32Array(kTwoCaps.positions.length / 3).fill(0.25);
+    const mesh = { ...kTwoCaps, attributes: { one: { data, size: 1 } } };
+    const expected = fillHoles(mesh);
+    const onProgress = (fraction: number) => {
+      if (fraction === 1) data.fill(1);
+    };
+    expect(fillHoles(mesh, { onProgress })).toEqual(expected);
+    expect(data[0]).toBe(1);
   });
 
   test('onProgress: counts only the holes that are filled', () => {

@@ -1,6 +1,6 @@
 // Attributes of a mesh's vertices, such as colours, carried on over patches: harmonic, so that every new vertex is the
 // mean of its neighbours and those on the rim keep what they have.
-import { fieldsOf, guarded, mustBe, viewOf } from './check.js';
+import { entriesOf, fieldsOf, guarded, mustBe, viewOf } from './check.js';
 import { SoapfilmError } from './errors.js';
 import type { MeshAttribute } from './types.js';
 
@@ -13,10 +13,7 @@ export type Attributes = Readonly<Record<string, MeshAttribute>>;
 export function attributesOf(given: unknown, vertices: number, own: boolean): Attributes | undefined {
   if (given === undefined) return undefined;
   const code = 'bad-attributes';
-  const keys = guarded(code, 'mesh.attributes', () => Object.keys(given as object));
-  const all = Object.fromEntries(keys.map((key) => [key, true])) as Record<string, true>;
-  const fields = fieldsOf<Record<string, unknown>>(given, all, 'mesh.attributes', code);
-  const entries = Object.entries(fields).map(([name, value]): [string, MeshAttribute] => {
+  const entries = entriesOf(given, 'mesh.attributes', code).map(([name, value]): [string, MeshAttribute] => {
     const path = `mesh.attributes.${name}`;
     const { data, size } = fieldsOf<MeshAttribute>(value, { data: true, size: true }, path, code);
     const numbers = guarded(code, path, () => viewOf(['Float32Array'], data));
@@ -53,17 +50,25 @@ const kMostSteps = 300;
  * @param faces `[3m]` the new faces only
  */
 export function carriedOn(attributes: Attributes, old: number, added: number, faces: Uint32Array): Attributes {
-  const { starts, neighbours } = neighboursOf(old, added, faces);
+  const graph = neighboursOf(old, added, faces);
   return mapped(attributes, ({ data, size }) => {
     const all = new Float32Array(size * (old + added));
     all.set(data);
-    for (let k = 0; k < size; k++) solve(all, size, k, old, added, starts, neighbours);
+    for (let k = 0; k < size; k++) solve(all, size, k, graph);
     return { data: all, size };
   });
 }
 
-/** The neighbours of each new vertex, in faces. */
-function neighboursOf(old: number, added: number, faces: Uint32Array) {
+/** The vertices next to each new one; one that is next to it in two faces is there twice. */
+interface Graph {
+  /** How many old vertices there are. */
+  readonly old: number;
+  /** `[added + 1]` offsets into `neighbours`. */
+  readonly starts: Uint32Array;
+  readonly neighbours: Uint32Array;
+}
+
+function neighboursOf(old: number, added: number, faces: Uint32Array): Graph {
   const starts = new Uint32Array(added + 1);
   for (const v of faces) if (v >= old) starts[v - old + 1] += 2;
   for (let i = 0; i < added; i++) starts[i + 1] += starts[i];
@@ -77,20 +82,17 @@ function neighboursOf(old: number, added: number, faces: Uint32Array) {
       neighbours[next[v - old]++] = faces[f + ((k + 2) % 3)];
     }
   }
-  return { starts, neighbours };
+  return { old, starts, neighbours };
 }
 
-/** Conjugate gradients for one number of each new vertex, from 0. */
-function solve(all: Float32Array, size: number, k: number, old: number, added: number, starts: Uint32Array, neighbours: Uint32Array): void {
+/**
+ * Number k of each new vertex: solves (degree - adjacency) x = sum of the old neighbours' numbers, by conjugate
+ * gradients from 0.
+ */
+function solve(all: Float32Array, size: number, k: number, { old, starts, neighbours }: Graph): void {
+  const added = starts.length - 1;
   const x = new Float64Array(added);
   const rest = new Float64Array(added);
-  const times = (from: Float64Array, to: Float64Array): void => {
-    for (let i = 0; i < added; i++) {
-      let sum = (starts[i + 1] - starts[i]) * from[i];
-      for (let at = starts[i]; at < starts[i + 1]; at++) if (neighbours[at] >= old) sum -= from[neighbours[at] - old];
-      to[i] = sum;
-    }
-  };
   for (let i = 0; i < added; i++) {
     for (let at = starts[i]; at < starts[i + 1]; at++) if (neighbours[at] < old) rest[i] += all[size * neighbours[at] + k];
   }
@@ -99,7 +101,10 @@ function solve(all: Float32Array, size: number, k: number, old: number, added: n
   const way = rest.slice();
   const image = new Float64Array(added);
   for (let step = 0; step < kMostSteps && square > enough; step++) {
-    times(way, image);
+    for (let i = 0; i < added; i++) {
+      image[i] = (starts[i + 1] - starts[i]) * way[i];
+      for (let at = starts[i]; at < starts[i + 1]; at++) if (neighbours[at] >= old) image[i] -= way[neighbours[at] - old];
+    }
     const length = square / way.reduce((sum, w, i) => sum + w * image[i], 0);
     let next = 0;
     for (let i = 0; i < added; i++) {

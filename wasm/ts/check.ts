@@ -55,6 +55,13 @@ export type Names<T> = Readonly<Record<keyof T, true>>;
 /** Fields as they were given, of any kind. */
 export type Given<T> = Readonly<Partial<Record<keyof T, unknown>>>;
 
+/** @throws SoapfilmError with that code if the argument is not an object with fields */
+function checkFields(value: unknown, name: string, code: ErrorCode): void {
+  const isFields = (): boolean =>
+    typeof value === 'object' && value !== null && !Array.isArray(value) && !ArrayBuffer.isView(value);
+  if (!guarded(code, name, isFields)) throw mustBe(code, name, 'an object', value);
+}
+
 /**
  * The named fields of an argument, each read once; those that are undefined are left out.
  * @param code of the error if the argument is not an object, or a field cannot be read
@@ -65,9 +72,7 @@ export function fieldsOf<T extends object>(
   name: string,
   code: ErrorCode,
 ): Given<T> {
-  const isFields = (): boolean =>
-    typeof value === 'object' && value !== null && !Array.isArray(value) && !ArrayBuffer.isView(value);
-  if (!guarded(code, name, isFields)) throw mustBe(code, name, 'an object', value);
+  checkFields(value, name, code);
   const path = name === 'options' ? '' : `${name}.`;
   const fields: Record<string, unknown> = {};
   for (const key of Object.keys(names)) {
@@ -93,6 +98,19 @@ export function optionsOf<T extends object>(
   throw new SoapfilmError('bad-option', `\`${path}${unknown}\` is not an option here; there are ${list}`);
 }
 
+/**
+ * The fields of an argument whose names are the caller's own, each read once; those that are undefined are left out.
+ * Pairs, not an object: a field may be named `__proto__`.
+ */
+export function entriesOf(value: unknown, name: string, code: ErrorCode): [key: string, field: unknown][] {
+  checkFields(value, name, code);
+  const keys = guarded(code, name, () => Object.keys(value as object));
+  return keys.flatMap((key): [string, unknown][] => {
+    const field = guarded(code, `${name}.${key}`, () => (value as Record<string, unknown>)[key]);
+    return field === undefined ? [] : [[key, field]];
+  });
+}
+
 /** The choice that an option names; the first one if it is left out. */
 export function choiceOf<T>(name: string, choices: readonly T[], value: unknown, more = ''): T {
   if (value === undefined) return choices[0];
@@ -108,6 +126,12 @@ export const flagOf = (name: string, value: unknown): boolean => choiceOf(name, 
 export function functionOf(name: string, value: unknown): unknown {
   if (value === undefined || typeof value === 'function') return value;
   throw mustBe('bad-option', name, 'a function', value);
+}
+
+/** An option that is a number and not negative. */
+export function amountOf(name: string, value: unknown, most = Infinity): number {
+  if (typeof value === 'number' && value >= 0 && value <= most) return value;
+  throw mustBe('bad-option', name, most < Infinity ? `a number from 0 to ${most}` : 'a number and not negative', value);
 }
 
 /** Whether a value is a whole number that fits into 32 bits. */

@@ -2,7 +2,7 @@
 import { flagOf, guarded, mustBe, optionsOf, type Given } from './check.js';
 import { SoapfilmError } from './errors.js';
 import { readFrom } from './host.js';
-import { kParts } from './options.js';
+import { kPartNames, kParts } from './options.js';
 import type { LoadOptions, Part, WasmSource } from './types.js';
 
 /** Compiled parts, for other threads. */
@@ -56,7 +56,7 @@ export function partsOf({ parts, wasm, checks }: Given<LoadOptions>): [Part, Was
   const sources: Given<Record<Part, WasmSource>> =
     wasm === undefined || isSource('wasm', wasm)
       ? { [named[0]]: wasm }
-      : optionsOf<Record<Part, WasmSource>>(wasm, { loops: true, polygons: true, meshes: true }, 'wasm');
+      : optionsOf<Record<Part, WasmSource>>(wasm, kPartNames, 'wasm');
   return named.map((part) => {
     const source = sources[part];
     if (source === undefined || isSource(`wasm.${part}`, source)) return [part, source];

@@ -30,7 +30,8 @@ export interface FoundHoles {
   readonly seconds: number;
 }
 
-const argumentsOf = ({ positions, faces }: FlatMesh): CoreArgument[] => [
+/** A mesh as the first arguments of an export. */
+export const argumentsOf = ({ positions, faces }: FlatMesh): CoreArgument[] => [
   positions,
   positions.length / 3,
   faces,

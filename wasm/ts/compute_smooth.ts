@@ -1,16 +1,17 @@
 // smoothSurface, once the arguments are checked: asks the core. Threads need only this half.
 import { packSmoothSettings, readSmoothArrays, type SmoothArrays } from './border.js';
-import type { FlatMesh } from './compute_holes.js';
+import { argumentsOf, type FlatMesh } from './compute_holes.js';
 import { meshError } from './messages.js';
-import { callCore, shared } from './runtime.js';
+import type { Limits } from './options.js';
+import { callCore, kDefaultMemoryBytes, shared } from './runtime.js';
 
-/** Settings as the core takes them, and the limit in time. */
-export interface SmoothWork {
-  readonly settings: Parameters<typeof packSmoothSettings>[0];
-  readonly maxSeconds?: number | undefined;
+/** Settings as the core takes them, and the limits. */
+export interface SmoothWork extends Limits {
+  readonly settings: Omit<Parameters<typeof packSmoothSettings>[0], 'maxBytes'>;
 }
 
-export function computeSmooth({ positions, faces }: FlatMesh, { settings, maxSeconds }: SmoothWork): SmoothArrays {
-  const args = [positions, positions.length / 3, faces, faces.length / 3, packSmoothSettings(settings)];
+export function computeSmooth(surface: FlatMesh, work: SmoothWork): SmoothArrays {
+  const { settings, maxSeconds, maxMemoryBytes: maxBytes = kDefaultMemoryBytes } = work;
+  const args = [...argumentsOf(surface), packSmoothSettings({ ...settings, maxBytes })];
   return callCore(shared.meshes, 'sf_smooth_surface', args, readSmoothArrays, { maxSeconds, explain: meshError }).arrays;
 }

@@ -10,6 +10,7 @@ import {
   readSpanNumbers,
   type SpanArrays,
 } from './border.js';
+import { coreWeights } from './core_weights.js';
 import { callCore, kDefaultMemoryBytes, shared } from './runtime.js';
 import type { LoopSet, NoSpan, Span, SpanOptions, SpaceUsed } from './types.js';
 
@@ -90,12 +91,8 @@ function noSpanReason(space: SpaceUsed): string {
 }
 
 function settings({ weights, objective = 'sum', candidates = 'auto', bestSoFar, maxMemoryBytes }: SpanOptions) {
-  // NaN: the core sets the default, which depends on the size of the loops.
-  const { area = 0, perimeter = 0, dihedral = 0 } = weights ?? { area: NaN, dihedral: 1 };
   return packSpanSettings({
-    areaWeight: area,
-    perimeterWeight: perimeter,
-    dihedralWeight: dihedral,
+    ...coreWeights(weights),
     objective: kObjectiveChoices.indexOf(objective),
     space: kSpaceChoices.indexOf(typeof candidates === 'object' ? 'given' : candidates),
     maxBytes: maxMemoryBytes ?? kDefaultMemoryBytes,

@@ -33,7 +33,10 @@ export type ErrorCode =
 export interface ErrorPlace {
   /** Index of the loop. */
   readonly loop?: number;
-  /** Index of the vertex within that loop; for `bad-candidates`, of the candidate triangle. */
+  /**
+   * Index of the vertex within that loop. Of a mesh, for `not-finite` and `bad-attributes`, its vertex, and of edits in
+   * a session the session's. For `bad-candidates`, index of the candidate triangle.
+   */
   readonly vertex?: number;
   /** The second loop and vertex, for errors about a pair, such as `loops-intersect`. */
   readonly otherLoop?: number;

@@ -1,6 +1,6 @@
 // Meshes and options of holes as callers give them, checked.
 import { attributesOf } from './attributes.js';
-import { fieldsOf, flagOf, choiceOf, functionOf, guarded, isIndex, mustBe, optionsOf, viewOf, type Given } from './check.js';
+import { amountOf, choiceOf, entriesOf, fieldsOf, flagOf, functionOf, guarded, isIndex, mustBe, optionsOf, viewOf, type Given } from './check.js';
 import type { FlatMesh } from './compute_holes.js';
 import { SoapfilmError } from './errors.js';
 import { kHoleFillOptions, limitsOf } from './options.js';
@@ -45,9 +45,8 @@ export function fillOptionsOf(given: Given<FillOptions>): FillOptions {
   if (groups !== undefined) checked.groups = listOf('groups', groups, (group, name) => indicesOf(name, group, 1));
   if (perHole !== undefined) checked.perHole = perHoleOf(perHole);
   checked.fillOpenRims = flagOf('fillOpenRims', fillOpenRims);
-  for (const [name, value] of Object.entries({ maxVertices, maxLength })) {
-    if (value !== undefined) checked[name as 'maxVertices' | 'maxLength'] = sizeOf(name, value);
-  }
+  if (maxVertices !== undefined) checked.maxVertices = amountOf('maxVertices', maxVertices);
+  if (maxLength !== undefined) checked.maxLength = amountOf('maxLength', maxLength);
   checked.output = choiceOf('output', ['mesh', 'patches'], output);
   if (functionOf('onProgress', onProgress) !== undefined) checked.onProgress = onProgress;
   return checked as FillOptions;
@@ -56,14 +55,14 @@ export function fillOptionsOf(given: Given<FillOptions>): FillOptions {
 /** Options that finding and filling have. @throws SoapfilmError `bad-option` */
 export function holeOptionsOf(given: Given<HoleOptions>): HoleOptions {
   const { weld } = given;
-  return { ...limitsOf(given), ...(weld !== undefined && { weld: sizeOf('weld', weld, Number.MAX_VALUE) }) };
+  return { ...limitsOf(given), ...(weld !== undefined && { weld: amountOf('weld', weld, Number.MAX_VALUE) }) };
 }
 
 function patchOptionsOf(given: Given<HoleFillOptions>, path = ''): HoleFillOptions {
   const { weights, candidates, fairness, density, maxNewVertices, creases } = given;
   const checked: { -readonly [K in keyof HoleFillOptions]: unknown } = {};
   if (weights !== undefined) {
-    const given = weightsOf(weights);
+    const given = weightsOf(weights, `${path}weights`);
     if (!Object.values(given).some((weight) => weight > 0)) {
       throw new SoapfilmError('bad-weights', `At least one of \`${path}weights\` must be positive`);
     }
@@ -71,31 +70,22 @@ function patchOptionsOf(given: Given<HoleFillOptions>, path = ''): HoleFillOptio
   }
   if (candidates !== undefined) checked.candidates = choiceOf(`${path}candidates`, ['auto', 'all', 'delaunay', 'near'], candidates);
   if (fairness !== undefined) checked.fairness = choiceOf(`${path}fairness`, ['auto', 0, 1, 2], fairness);
-  if (density !== undefined) checked.density = sizeOf(`${path}density`, density, 100);
-  if (maxNewVertices !== undefined) checked.maxNewVertices = sizeOf(`${path}maxNewVertices`, maxNewVertices);
+  if (density !== undefined) checked.density = amountOf(`${path}density`, density, 100);
+  if (maxNewVertices !== undefined) checked.maxNewVertices = amountOf(`${path}maxNewVertices`, maxNewVertices);
   if (creases !== undefined) {
-    checked.creases = typeof creases === 'number' ? sizeOf(`${path}creases`, creases, 180) : flagOf(`${path}creases`, creases);
+    checked.creases = typeof creases === 'number' ? amountOf(`${path}creases`, creases, 180) : flagOf(`${path}creases`, creases);
   }
   return checked as HoleFillOptions;
 }
 
 function perHoleOf(value: unknown): Readonly<Record<number, HoleFillOptions>> {
-  const keys = guarded('bad-option', 'perHole', () => Object.keys(value as object));
-  const all = Object.fromEntries(keys.map((key) => [key, true])) as Record<string, true>;
-  const fields = fieldsOf<Record<string, unknown>>(value, all, 'perHole', 'bad-option');
   return Object.fromEntries(
-    Object.entries(fields).map(([key, options]) => {
+    entriesOf(value, 'perHole', 'bad-option').map(([key, options]) => {
       const name = `perHole[${key}]`;
       if (String(Number(key) >>> 0) !== key) throw new SoapfilmError('bad-option', `\`${name}\` is not the number of a hole`);
       return [key, patchOptionsOf(optionsOf(options, kHoleFillOptions, name), `${name}.`)];
     }),
   );
-}
-
-/** An option that is a number and not negative. */
-export function sizeOf(name: string, value: unknown, most = Infinity): number {
-  if (typeof value === 'number' && value >= 0 && value <= most) return value;
-  throw mustBe('bad-option', name, most < Infinity ? `a number from 0 to ${most}` : 'a number and not negative', value);
 }
 
 /** An array, each item read once and at once: one may be sparse, and have billions. */

@@ -17,11 +17,12 @@ import {
   readLoopFacts,
   type FillArrays,
 } from './border.js';
+import { coreWeights } from './core_weights.js';
 import { carriedOn, tailsOf, weldedAttributes } from './attributes.js';
 import type { FlatMesh, FoundHoles, PatchWork } from './compute_holes.js';
 import { SoapfilmError } from './errors.js';
 import type { Patches } from './hole_crossings.js';
-import { report as reportError } from './report.js';
+import { tellLast } from './report.js';
 import type {
   FilledHole,
   FillOptions,
@@ -188,7 +189,7 @@ export function patchesOf(mesh: FlatMesh, plan: FillPlan, parts: readonly FillAr
   return { holes, positions, faces };
 }
 
-/** The result, and the last call of `onProgress`. If that throws, its error is reported: the work is done. */
+/** The result, and when it is made, the last call of `onProgress`. */
 export function filledOf(mesh: FlatMesh, plan: FillPlan, patches: Patches, { output, onProgress }: FillOptions): FillResult {
   const { holes } = patches;
   const old = output === 'patches' ? { positions: new Float64Array(), faces: new Uint32Array() } : mesh;
@@ -198,13 +199,6 @@ export function filledOf(mesh: FlatMesh, plan: FillPlan, patches: Patches, { out
   positions.set(patches.positions, old.positions.length);
   faces.set(old.faces);
   faces.set(patches.faces, old.faces.length);
-  if (plan.todo.length > 0) {
-    try {
-      onProgress?.(1, plan.todo[plan.todo.length - 1], plan.todo.length);
-    } catch (error) {
-      reportError(error);
-    }
-  }
   const { vertexMap } = plan.report;
   const oldVertices = mesh.positions.length / 3;
   const added = patches.positions.length / 3;
@@ -214,6 +208,7 @@ export function filledOf(mesh: FlatMesh, plan: FillPlan, patches: Patches, { out
     attributes = carriedOn(attributes, oldVertices, added, patches.faces);
     if (output === 'patches') attributes = tailsOf(attributes, oldVertices);
   }
+  if (plan.todo.length > 0) tellLast(() => onProgress?.(1, plan.todo[plan.todo.length - 1], plan.todo.length));
   return {
     mesh: { positions, faces, ...(attributes && { attributes }) },
     oldVertices,
@@ -280,12 +275,8 @@ const kCrease = 40;
 function patchSettings(options: HoleFillOptions, single: boolean) {
   const { weights, candidates = 'auto', fairness = 'auto', density, maxNewVertices, creases = true } = options;
   const degrees = creases === true ? kCrease : Number(creases);
-  // NaN: the core sets the default, which depends on the size of the hole.
-  const { area = 0, perimeter = 0, dihedral = 0 } = weights ?? { area: NaN, dihedral: 1 };
   return {
-    areaWeight: area,
-    perimeterWeight: perimeter,
-    dihedralWeight: dihedral,
+    ...coreWeights(weights),
     space: kSpaceChoices.indexOf(candidates),
     fairing: kFairingChoices.indexOf(kFairings[fairness]),
     density: density ?? Math.SQRT2,

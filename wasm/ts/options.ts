@@ -1,5 +1,5 @@
 // The names of all options, and those checks that functions share: limits, and signals.
-import { guarded, mustBe, type Given, type Names } from './check.js';
+import { amountOf, guarded, mustBe, optionsOf, type Given, type Names } from './check.js';
 import type {
   CandidateList,
   FillOptions,
@@ -14,7 +14,9 @@ import type {
   Weights,
 } from './types.js';
 
-export const kParts: readonly Part[] = ['loops', 'polygons', 'meshes'];
+export const kPartNames: Names<Record<Part, unknown>> = { loops: true, polygons: true, meshes: true };
+
+export const kParts = Object.keys(kPartNames) as readonly Part[];
 
 export const kLoadOptions: Names<LoadOptions> = { parts: true, wasm: true, checks: true };
 
@@ -85,16 +87,23 @@ export interface Limits {
  * @throws SoapfilmError `bad-option`
  */
 export function limitsOf({ maxMemoryBytes, maxSeconds }: Given<Limits>): Limits {
-  const given = Object.entries({ maxMemoryBytes, maxSeconds }).filter(([, value]) => value !== undefined);
-  for (const [name, value] of given) {
-    if (typeof value === 'number' && value >= 0) continue;
-    throw mustBe('bad-option', name, 'a number and not negative', value);
-  }
-  return Object.fromEntries(given);
+  return {
+    ...(maxMemoryBytes !== undefined && { maxMemoryBytes: amountOf('maxMemoryBytes', maxMemoryBytes) }),
+    ...(maxSeconds !== undefined && { maxSeconds: amountOf('maxSeconds', maxSeconds) }),
+  };
 }
 
-/** The signal of an asynchronous call, checked. */
-export function signalOf(signal: unknown): AbortSignal | undefined {
+/** The options of an asynchronous call, read, and apart from them its signal, checked. */
+export function callOptionsOf<T extends object>(
+  options: unknown,
+  names: Names<T>,
+): readonly [given: Given<T>, signal: AbortSignal | undefined] {
+  const all: Names<Record<string, unknown>> = { ...names, signal: true };
+  const { signal, ...given } = optionsOf(options, all);
+  return [given as Given<T>, signalOf(signal)];
+}
+
+function signalOf(signal: unknown): AbortSignal | undefined {
   if (signal === undefined) return undefined;
   // Objects that only inherit from the prototype throw here.
   const isSignal = (): boolean => signal instanceof AbortSignal && typeof signal.aborted === 'boolean';

@@ -59,7 +59,7 @@ export class Pool {
     name: N,
     input: Parameters<Calls[N]>,
     watch: CallWatch,
-  ): Promise<unknown> {
+  ): Promise<ReturnType<Calls[N]>> {
     const { signal, onProgress, keepsBest = false } = watch;
     return new Promise((resolve, reject) => {
       if (this.#disposed) throw disposed();
@@ -83,7 +83,7 @@ export class Pool {
         watch,
         resolve: (value) => {
           ended();
-          resolve(value);
+          resolve(value as ReturnType<Calls[N]>);
         },
         reject: (reason) => {
           ended();

@@ -83,10 +83,10 @@ export function packError(error: unknown): PlainError {
   if (!(error instanceof SoapfilmError)) {
     return { code: 'crashed', message: `The worker failed: ${String(error)}`, place: {} };
   }
-  const { code, message, loop, vertex, otherLoop, otherVertex, polygon, point, face, line } = error;
-  const place = { loop, vertex, otherLoop, otherVertex, polygon, point, face, line };
-  const known = Object.entries(place).filter(([, value]) => value !== undefined);
-  return { code, message, place: Object.fromEntries(known) };
+  const { code, message } = error;
+  // All other fields that it has are its place.
+  const place = Object.entries(error).filter(([key, value]) => key !== 'code' && key !== 'name' && value !== undefined);
+  return { code, message, place: Object.fromEntries(place) };
 }
 
 export function unpackError({ code, message, place }: PlainError): SoapfilmError {

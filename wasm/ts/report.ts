@@ -8,12 +8,16 @@ export function report(error: unknown): void {
   else console.error(error);
 }
 
-/** Tells a listener that a surface was found. If it throws, its error is reported: the work is done. */
-export function tellEnd(span: Span | NoSpan, onProgress: ProgressListener | undefined): void {
-  if (!span.found) return;
+/** Tells a listener that the work is done. If that throws, the error is reported: the result is there all the same. */
+export function tellLast(tell: () => void): void {
   try {
-    onProgress?.(1, span.cost, span.lowerBound);
+    tell();
   } catch (error) {
     report(error);
   }
+}
+
+/** Tells a listener that a surface was found. */
+export function tellEnd(span: Span | NoSpan, onProgress: ProgressListener | undefined): void {
+  if (span.found) tellLast(() => onProgress?.(1, span.cost, span.lowerBound));
 }

@@ -89,10 +89,11 @@ interface Core {
 interface Run {
   readonly watch: Pick<
     Watch<unknown>,
-    'onProgress' | 'maxSeconds' | 'spentSeconds' | 'keepsResult' | 'borrows' | 'explain'
+    'onProgress' | 'maxSeconds' | 'keepsResult' | 'borrows' | 'explain'
   >;
   /** Reads the result of this handle, and gives it to the listener. */
   readonly hear: (handle: number) => void;
+  /** As if the earlier calls, whose seconds are spent, were part of this one. */
   readonly started: number;
   told: number;
   fraction: number;
@@ -201,7 +202,7 @@ function onHostProgress(fraction: number, bestCost: number, lowerBound: number):
 function watchWork(run: Run, fraction: number, bestCost: number, lowerBound: number): void {
   const { watch, started } = run;
   const now = performance.now();
-  if (watch.maxSeconds !== undefined && now - started >= (watch.maxSeconds - (watch.spentSeconds ?? 0)) * 1000) {
+  if (watch.maxSeconds !== undefined && now - started >= watch.maxSeconds * 1000) {
     const text = `The work was not done within ${watch.maxSeconds} s (\`maxSeconds\`)`;
     const reason = new SoapfilmError('time-limit', text);
     run.stop = { reason, gently: watch.keepsResult === true, heard: false };
@@ -257,7 +258,7 @@ export function callCore<T>(
   const hear = (handle: number): void => {
     if (home.core) watch.onResult?.(readArrays(home.core, handle, read));
   };
-  const thisRun: Run = { watch, hear, started: now, told: now, fraction: 0 };
+  const thisRun: Run = { watch, hear, started: now - 1000 * (watch.spentSeconds ?? 0), told: now, fraction: 0 };
   run = thisRun;
   try {
     start(home);

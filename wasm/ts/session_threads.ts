@@ -180,6 +180,7 @@ export class RemoteSession<S extends Resident> {
 
 type Opened<K extends keyof SessionKinds> = InstanceType<SessionKinds[K]>;
 
+/** The threads for sessions of a pool, which end with it. */
 export class SessionThreads {
   readonly #pool: Pool;
   readonly #hosts = new Set<Host>();
@@ -190,6 +191,7 @@ export class SessionThreads {
 
   constructor(pool: Pool) {
     this.#pool = pool;
+    pool.guests.add(this);
   }
 
   /**
@@ -245,17 +247,4 @@ export class SessionThreads {
     const fits = hosts.length > 0 && (fewest.tenants.size === 0 || hosts.length >= this.#pool.size);
     return fits ? fewest : new Host(this.#pool, this.#hosts);
   }
-}
-
-const known = new WeakMap<Pool, SessionThreads>();
-
-/** The threads for sessions of a pool, which end with it. */
-export function sessionThreadsOf(pool: Pool): SessionThreads {
-  let threads = known.get(pool);
-  if (!threads) {
-    threads = new SessionThreads(pool);
-    known.set(pool, threads);
-    pool.guests.add(threads);
-  }
-  return threads;
 }

@@ -1,10 +1,9 @@
 // smoothSurface: checks its arguments, and computes.
-import { kSurfaceKindChoices, readSmoothNumbers, type SmoothArrays } from './border.js';
-import { choiceOf, optionsOf, type Given } from './check.js';
-import { computeSmooth, type SmoothWork } from './compute_smooth.js';
-import { flattenMesh, sizeOf } from './hole_input.js';
-import { kSmoothOptions, limitsOf } from './options.js';
-import { kDefaultMemoryBytes } from './runtime.js';
+import { optionsOf } from './check.js';
+import { computeSmooth } from './compute_smooth.js';
+import { flattenMesh } from './hole_input.js';
+import { kSmoothOptions } from './options.js';
+import { smoothOf, smoothWorkOf } from './smooth_input.js';
 import type { MeshInput, SmoothOptions, SmoothSurface } from './types.js';
 
 /**
@@ -18,24 +17,4 @@ import type { MeshInput, SmoothOptions, SmoothSurface } from './types.js';
 export function smoothSurface(surface: MeshInput, options: SmoothOptions = {}): SmoothSurface {
   const flat = flattenMesh(surface, false, 'surface');
   return smoothOf(computeSmooth(flat, smoothWorkOf(optionsOf(options, kSmoothOptions))));
-}
-
-/** The options, checked, as the core takes them. @throws SoapfilmError `bad-option` */
-export function smoothWorkOf(given: Given<SmoothOptions>): SmoothWork {
-  const { maxSeconds, maxMemoryBytes = kDefaultMemoryBytes } = limitsOf(given);
-  const { kind, density = Math.SQRT2, maxNewVertices = Infinity } = given;
-  return {
-    settings: {
-      kind: kSurfaceKindChoices.indexOf(choiceOf('kind', kSurfaceKindChoices, kind)),
-      density: sizeOf('density', density, 100),
-      maxNewVertices: sizeOf('maxNewVertices', maxNewVertices),
-      maxBytes: maxMemoryBytes,
-    },
-    maxSeconds,
-  };
-}
-
-export function smoothOf({ positions, triangles, boundary, collapsed, numbers }: SmoothArrays): SmoothSurface {
-  const { area, isMinimal } = readSmoothNumbers(numbers);
-  return { positions, triangles, boundary, collapsed, area, isMinimal: isMinimal === 1 };
 }

@@ -39,11 +39,12 @@ export function spanOptionsOf(given: Given<SpanOptions>, input: LoopSet, own: bo
   return checked as SpanOptions;
 }
 
-export function weightsOf(given: unknown): Weights {
-  const weights = optionsOf(given, kWeights, 'weights', 'bad-weights');
-  for (const [name, value] of Object.entries(weights)) {
+/** @param name of the option, for messages */
+export function weightsOf(given: unknown, name = 'weights'): Weights {
+  const weights = optionsOf(given, kWeights, name, 'bad-weights');
+  for (const [key, value] of Object.entries(weights)) {
     if (typeof value === 'number' && Number.isFinite(value) && value >= 0) continue;
-    throw mustBe('bad-weights', `weights.${name}`, 'a finite number and not negative', value);
+    throw mustBe('bad-weights', `${name}.${key}`, 'a finite number and not negative', value);
   }
   return weights as Weights;
 }

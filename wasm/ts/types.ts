@@ -427,6 +427,7 @@ export interface MeshDefect {
 export interface HoleLoop {
   /** The vertices in the order in which faces that fill the hole have them: the mesh's face is on the right. */
   readonly vertices: Uint32Array;
+  /** In units of the mesh, as is `diameter`. */
   readonly length: number;
   /** The largest distance between two of its vertices; of more than 1000, a little too small. */
   readonly diameter: number;
@@ -472,11 +473,14 @@ export interface HoleFillOptions {
   readonly weights?: Weights;
   /** Which triangles the surface may have before it is refined. Default `'auto'`: all triples for small rims, else Delaunay. */
   readonly candidates?: 'auto' | 'all' | 'delaunay' | 'near';
-  /** How smoothly the patch goes on what is around it: 0 not faired, 1 direction, 2 curvature too. Default `'auto'`: 2, but 1 where the surroundings are rough. */
+  /**
+   * How smoothly the patch goes on what is around it: 0 not faired, 1 direction, 2 curvature too. Default `'auto'`: 2,
+   * but 1 where the surroundings are rough, and 0 in flat places.
+   */
   readonly fairness?: 0 | 1 | 2 | 'auto';
   /** How much denser than its surroundings the patch is (Liepa's factor). Default √2; 0: no new vertices. */
   readonly density?: number;
-  /** Most new vertices in one hole. */
+  /** Most new vertices in one hole, those on creases included. Default: no limit. */
   readonly maxNewVertices?: number;
   /** Whether creases that end at the rim go on through the hole, or from which angle in degrees on. Default `true`: 40. */
   readonly creases?: boolean | number;
@@ -501,6 +505,26 @@ export interface FillOptions extends HoleFillOptions, HoleOptions {
   readonly onProgress?: (fraction: number, hole: number, of: number) => void;
 }
 
+/**
+ * Why a hole is not filled, or how it is.
+ *
+ * It failed:
+ * - `'no-surface'`: the candidates hold no surface that its rims bound.
+ * - `'rims-intersect'`: its rims cross or touch each other or themselves.
+ * - `'repeated-vertex'`: two vertices of its rims are in one place.
+ * - `'duplicate-face'`: the patch would have a face or an edge that the mesh has already.
+ * - `'too-large'`: it needs more than `maxMemoryBytes`.
+ * - `'inserted-vertices'`: only a surface with further vertices on its rims was found, and rims stay as they are.
+ * - `'opposed-rims'`: a rim runs the other way round than the rest, so a part of the mesh is inside out.
+ *
+ * It is filled:
+ * - `'stitched'`: in part at least by triangles without area, between vertices of the rim that are in one place.
+ *
+ * It was skipped, by an option of `fillHoles`:
+ * - `'too-many-vertices'`: more than `maxVertices` are on its rims.
+ * - `'too-long'`: its outer rim is longer than `maxLength`.
+ * - `'not-asked-for'`: `holes` does not name it.
+ */
 export type HoleReason =
   | 'no-surface'
   | 'rims-intersect'
@@ -508,9 +532,7 @@ export type HoleReason =
   | 'duplicate-face'
   | 'too-large'
   | 'inserted-vertices'
-  /** A rim runs the other way round than the rest: a part of the mesh is inside out. */
   | 'opposed-rims'
-  /** Filled, but in part at least by triangles without area: the rim touches itself. */
   | 'stitched'
   | 'too-many-vertices'
   | 'too-long'
@@ -524,13 +546,19 @@ export interface FilledHole {
   readonly reason?: HoleReason;
   /** Its faces in the filled mesh: from the first to before the second. */
   readonly faces: readonly [from: number, to: number];
-  /** Of the surface before it was refined. */
+  /** Of the surface before it was refined: the sum that `weights` says. If creases part the hole, over its parts. */
   readonly cost: number;
+  /** Proven lower bound on the cost of every such surface among the candidates. */
   readonly lowerBound: number;
+  /** Whether that surface is proven to be the best among the candidates. */
   readonly optimal: boolean;
   /** Mean angle between the patch and the faces along the rim, in radians: before refining and after fairing. */
   readonly rimAngle: { readonly before: number; readonly after: number };
-  /** `[2p]` pairs of faces of the filled mesh that intersect. */
+  /**
+   * `[2p]` pairs of faces of the filled mesh that intersect: of the patch with itself, with the mesh, and with patches of
+   * other holes. Of a pair with another hole's patch, this hole's face is first. Not all are listed where there are
+   * more than some 10 000.
+   */
   readonly intersections: Uint32Array;
   /** 2: curvature goes on, 1: direction does, 0: not faired. */
   readonly fairnessUsed: 0 | 1 | 2;

@@ -6,7 +6,7 @@ import { kDispose } from './dispose.js';
 import { notLoaded } from './errors.js';
 import { flattenLoops } from './flatten.js';
 import { Launcher } from './launch.js';
-import { kLoadOptions, kSpanOptions, signalOf } from './options.js';
+import { callOptionsOf, kLoadOptions, kSpanOptions } from './options.js';
 import { Pool } from './pool.js';
 import { tellEnd } from './report.js';
 import { spanOptionsOf } from './span_input.js';
@@ -154,13 +154,13 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
   return {
     async spanLoops(loops, options = {}) {
       const input = flattenLoops(loops, true);
-      const { signal, ...given } = optionsOf<SpanOptions & CallOptions>(options, { ...kSpanOptions, signal: true });
+      const [given, signal] = callOptionsOf(options, kSpanOptions);
       const { onProgress, onBest, ...rest } = spanOptionsOf(given, input, true);
       // A bound that is proven after the latest surface came holds for that surface too, unless the bound is
       // about another space: in that one, the best cost known is higher.
       let [best, bound] = [Infinity, 0];
       const watch = {
-        signal: signalOf(signal),
+        signal,
         onProgress:
           onProgress || rest.bestSoFar
             ? (fraction: number, cost: number, lowerBound: number) => {
@@ -174,7 +174,7 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
         },
         keepsBest: rest.bestSoFar,
       };
-      let span = (await pool.call('spanLoops', [input, rest], watch)) as Span | NoSpan;
+      let span = await pool.call('spanLoops', [input, rest], watch);
       if (span.found && !span.optimal && span.lowerBound < bound) {
         span = { ...span, lowerBound: Math.min(bound, span.cost) };
       }

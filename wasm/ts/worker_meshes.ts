@@ -1,34 +1,32 @@
 // The functions for meshes of `soapfilm/worker`.
-import type { SmoothArrays } from './border.js';
-import { optionsOf } from './check.js';
-import type { FilledHoles, FlatMesh, FoundHoles } from './compute_holes.js';
+import type { FlatMesh, FoundHoles } from './compute_holes.js';
 import { closePatches, withCrossings } from './hole_crossings.js';
 import { fillOptionsOf, flattenMesh, holeOptionsOf } from './hole_input.js';
 import { filledOf, partListeners, partsOf, patchesOf, planOf, reportOf } from './hole_results.js';
-import { kFillOptions, kHoleOptions, kSmoothOptions, limitsOf, signalOf } from './options.js';
+import { callOptionsOf, kFillOptions, kHoleOptions, kSmoothOptions, limitsOf } from './options.js';
 import type { Pool } from './pool.js';
-import { smoothOf, smoothWorkOf } from './smooth.js';
-import type { FillOptions, HoleOptions, SmoothOptions } from './types.js';
-import type { CallOptions, Film } from './worker.js';
+import { smoothOf, smoothWorkOf } from './smooth_input.js';
+import type { HoleOptions } from './types.js';
+import type { Film } from './worker.js';
 
 type MeshCalls = 'findHoles' | 'fillHoles' | 'smoothSurface';
 
 /** Calls that check and copy here, have the pool compute, and make the results here. */
 export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
-  const find = async (mesh: FlatMesh, options: HoleOptions, signal: AbortSignal | undefined): Promise<FoundHoles> =>
-    (await pool.call('findHoles', [mesh, holeOptionsOf(options)], { signal })) as FoundHoles;
+  const find = (mesh: FlatMesh, options: HoleOptions, signal: AbortSignal | undefined): Promise<FoundHoles> =>
+    pool.call('findHoles', [mesh, options], { signal });
   return {
     async findHoles(mesh, options = {}) {
       const flat = flattenMesh(mesh, true);
-      const { signal, ...given } = optionsOf<HoleOptions & CallOptions>(options, { ...kHoleOptions, signal: true });
-      return reportOf(await find(flat, holeOptionsOf(given), signalOf(signal)));
+      const [given, signal] = callOptionsOf(options, kHoleOptions);
+      return reportOf(await find(flat, holeOptionsOf(given), signal));
     },
     async fillHoles(mesh, options = {}) {
       const flat = flattenMesh(mesh, true);
-      const { signal: aborts, ...rest } = optionsOf<FillOptions & CallOptions>(options, { ...kFillOptions, signal: true });
-      const signal = signalOf(aborts);
-      const given = fillOptionsOf(rest);
-      const found = await find(flat, given, signal);
+      const [all, signal] = callOptionsOf(options, kFillOptions);
+      const given = fillOptionsOf(all);
+      // No more than finding needs: listeners cannot be sent.
+      const found = await find(flat, holeOptionsOf(given), signal);
       const plan = planOf(reportOf(found), given, flat.single);
       const parts = partsOf(plan.work, plan, pool.size);
       const listeners = partListeners(plan, parts, given.onProgress);
@@ -38,7 +36,7 @@ export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
       const meshes = parts.map((_, i) => (i === 0 ? found.mesh : copy()));
       const filled = await together(signal, parts, (work, i, ends) => {
         const patches = { ...limitsOf(given), work, spentSeconds: found.seconds };
-        return pool.call('fillHoles', [meshes[i], patches], { signal: ends, onProgress: listeners[i] }) as Promise<FilledHoles>;
+        return pool.call('fillHoles', [meshes[i], patches], { signal: ends, onProgress: listeners[i] });
       });
       const old = filled[0]?.mesh ?? found.mesh;
       let patches = patchesOf(old, plan, filled.map(({ arrays }) => arrays));
@@ -46,15 +44,14 @@ export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
       if (close) {
         const limits = { ...limitsOf(given), spentSeconds: Math.max(...filled.map(({ spentSeconds }) => spentSeconds)) };
         const pairs = await pool.call('findCrossings', [close.mesh, limits], { signal });
-        patches = withCrossings(patches, close, pairs as Uint32Array);
+        patches = withCrossings(patches, close, pairs);
       }
       return filledOf(old, plan, patches, given);
     },
     async smoothSurface(surface, options = {}) {
       const flat = flattenMesh(surface, true, 'surface');
-      const { signal, ...given } = optionsOf<SmoothOptions & CallOptions>(options, { ...kSmoothOptions, signal: true });
-      const watch = { signal: signalOf(signal) };
-      return smoothOf((await pool.call('smoothSurface', [flat, smoothWorkOf(given)], watch)) as SmoothArrays);
+      const [given, signal] = callOptionsOf(options, kSmoothOptions);
+      return smoothOf(await pool.call('smoothSurface', [flat, smoothWorkOf(given)], { signal }));
     },
   };
 }

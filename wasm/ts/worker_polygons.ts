@@ -1,24 +1,15 @@
 // The functions for polygons of `soapfilm/worker`.
-import { optionsOf } from './check.js';
 import type { PolygonEditor } from './compute_edits.js';
 import { kDispose } from './dispose.js';
 import type { FlatPolygons } from './flat_polygons.js';
 import { flattenGeoJSON } from './geojson.js';
-import { kPolygonOptions, kPolygonsOptions, signalOf } from './options.js';
-import { checkEdit, editedPolygonOf, editOf, kNoPoint, kSessionOptions, type SessionOptions } from './polygon_edits.js';
+import { callOptionsOf, kPolygonOptions, kPolygonsOptions } from './options.js';
+import { checkEdit, editedPolygonOf, editOf, kNoPoint, kSessionOptions } from './polygon_edits.js';
 import { flattenBatch, flattenPolygon, polygonOptionsOf } from './polygon_input.js';
 import type { Pool } from './pool.js';
 import { unpackErrors } from './protocol.js';
-import { sessionThreadsOf, type RemoteSession } from './session_threads.js';
-import type {
-  Point2Like,
-  PolygonEdit,
-  PolygonOptions,
-  PolygonsOptions,
-  PolygonState,
-  PolygonsTriangulation,
-  PolygonTriangulation,
-} from './types.js';
+import { SessionThreads, type RemoteSession } from './session_threads.js';
+import type { Point2Like, PolygonEdit, PolygonsOptions, PolygonState, PolygonsTriangulation } from './types.js';
 import type { CallOptions, Film, PolygonSessionHandle } from './worker.js';
 
 type PolygonCalls =
@@ -29,22 +20,19 @@ type PolygonCalls =
 
 /** Calls that check and flatten here, and have the pool compute. */
 export function polygonCalls(pool: Pool): Pick<Film, PolygonCalls> {
-  const sessions = sessionThreadsOf(pool);
-  const several = async <T extends PolygonsTriangulation>(
+  const sessions = new SessionThreads(pool);
+  const several = async (
     flat: FlatPolygons,
     options: PolygonsOptions & CallOptions = {},
-  ): Promise<T> => {
-    const { signal, ...given } = optionsOf<PolygonsOptions & CallOptions>(options, { ...kPolygonsOptions, signal: true });
-    const watch = { signal: signalOf(signal) };
-    return unpackErrors((await pool.call('triangulatePolygons', [flat, polygonOptionsOf(given, flat)], watch)) as T);
+  ): Promise<PolygonsTriangulation> => {
+    const [given, signal] = callOptionsOf(options, kPolygonsOptions);
+    return unpackErrors(await pool.call('triangulatePolygons', [flat, polygonOptionsOf(given, flat)], { signal }));
   };
   return {
     async triangulatePolygon(polygon, options = {}) {
       const flat = flattenPolygon(polygon, true);
-      const { signal, ...given } = optionsOf<PolygonOptions & CallOptions>(options, { ...kPolygonOptions, signal: true });
-      const watch = { signal: signalOf(signal) };
-      const result = await pool.call('triangulatePolygon', [flat, polygonOptionsOf(given, flat)], watch);
-      return result as PolygonTriangulation;
+      const [given, signal] = callOptionsOf(options, kPolygonOptions);
+      return pool.call('triangulatePolygon', [flat, polygonOptionsOf(given, flat)], { signal });
     },
     triangulatePolygons: async (polygons, options) => several(flattenBatch(polygons, true), options),
     triangulateGeoJSON: async (geojson, options) => {
@@ -54,9 +42,8 @@ export function polygonCalls(pool: Pool): Pick<Film, PolygonCalls> {
       return { ...(await several(flat, options)), positions, featureStarts };
     },
     async createPolygonSession(polygon, options = {}) {
-      const { signal, ...given } = optionsOf<SessionOptions & CallOptions>(options, { ...kSessionOptions, signal: true });
-      const abort = signalOf(signal);
-      const session = await sessions.open('polygon', editedPolygonOf(polygon, given, true), abort);
+      const [given, signal] = callOptionsOf(options, kSessionOptions);
+      const session = await sessions.open('polygon', editedPolygonOf(polygon, given, true), signal);
       const handle = new PolygonHandle(session);
       sessions.freeWith(handle, session);
       return handle;
