@@ -3,7 +3,7 @@ import { readFile } from 'node:fs/promises';
 import AxeBuilder from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import '../../web/src/modes/mesh/inspection.ts';
-import { expect, test } from './support.ts';
+import { changedShare, expect, test } from './support.ts';
 
 interface State {
   readonly name: string;
@@ -180,6 +180,22 @@ test('rims: lit from the list and the other way round, chosen by a click, filled
   expect((await stateOf(page)).holes.map(({ wish }) => wish)).toEqual([null, 'leave']);
   await page.getByRole('button', { name: /^Hole 1 / }).hover();
   await expect.poll(() => page.evaluate(() => window.__meshes?.hovered)).toBe(0);
+});
+
+test('a hole that is looked at, without flights: the grid stays as large as the mesh', async ({ quietPage: page }) => {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await openTorus(page);
+  await page.getByRole('button', { name: /^Hole 1 / }).click();
+  const grid = page.getByRole('switch', { name: 'Grid' });
+  await grid.hover();
+  const nextPictures = () => page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); }));
+  await nextPictures();
+  // Hidden and shown again, it is placed anew.
+  const changed = await changedShare(page, async () => {
+    for (let i = 0; i < 2; i++) await grid.click();
+    await nextPictures();
+  });
+  expect(changed).toBe(0);
 });
 
 test('a group: is split into its rims, and joined again', async ({ quietPage: page }) => {

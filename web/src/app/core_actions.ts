@@ -123,7 +123,7 @@ function coreActions(stage: Stage, tools: Tools, room: Room | undefined): readon
       keys: ['f'],
       bar: 'view',
       icon: 'fit',
-      run: () => { stage.frameAll(); },
+      run: () => { stage.frame({ atOnce: false }); },
     },
     { id: 'closer', label: 'Zoom in', keys: ['canvas++', 'canvas+='], run: () => viewpoint()?.zoom(kCloser) },
     { id: 'further', label: 'Zoom out', keys: ['canvas+-'], run: () => viewpoint()?.zoom(1 / kCloser) },

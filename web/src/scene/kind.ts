@@ -44,3 +44,8 @@ export interface DrawnKind<S> extends Kind<S> {
   pick(shape: S, eye: Eye, at: Spot, reach: number): Hit | null;
   makeLayer(): Layer;
 }
+
+/** Whether objects look as others did, so that nothing is to be drawn anew. */
+export function areSame(a: readonly Item[], b: readonly Item[]): boolean {
+  return a.length === b.length && a.every((item, i) => item.shape === b[i].shape);
+}

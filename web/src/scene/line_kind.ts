@@ -6,7 +6,7 @@ import type { Id, Item, Place } from '../state/document.ts';
 import { Dots } from './dots.ts';
 import { distanceOf, shareAlong, type Eye, type Projected, type Spot } from './eye.ts';
 import { FatLines, segmentsOf } from './fat_line.ts';
-import type { Drawn, DrawnKind, Hit, Layer, Marks } from './kind.ts';
+import { areSame, type Drawn, type DrawnKind, type Hit, type Layer, type Marks } from './kind.ts';
 
 /** How lines and handles look, in CSS pixels. */
 export interface LineStyle {
@@ -161,10 +161,6 @@ class LinesLayer implements Layer {
 }
 
 type ItemsById = ReadonlyMap<Id, Item>;
-
-function areSame(a: readonly Item[], b: readonly Item[]): boolean {
-  return a.length === b.length && a.every((item, i) => item.shape === b[i].shape);
-}
 
 /** One line of several, by itself. */
 function lineIn(lines: Lines, line: number): Lines {

@@ -75,11 +75,11 @@ export class OrbitViewpoint extends Viewpoint {
 
   frame(box: Box, direction?: Point, atOnce = false): void {
     const { center, diagonal } = boundsOf(box);
-    this.radius = diagonal / 2 || kEmptyRadius;
+    const radius = diagonal / 2 || kEmptyRadius;
     const half = (this.camera.fov * Math.PI) / 360;
     const across = Math.min(1, this.camera.aspect);
     const reach = Math.sin(Math.atan(Math.tan(half) * across));
-    const distance = (1.04 * this.radius) / this.placement.unit / reach;
+    const distance = (1.04 * radius) / this.placement.unit / reach;
     const target = new Vector3(...toScene(this.placement, center));
     const eye = direction ? toSpherical(new Vector3(...direction)) : this.eyeNow();
     this.fly(target, { ...eye, distance }, atOnce);

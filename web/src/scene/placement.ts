@@ -30,6 +30,17 @@ export const toScene = ({ center, unit }: Placement, point: Point): Point => [
   (point[2] - center[2]) / unit,
 ];
 
+/** Points `[3n]`. */
+export function allToScene({ center, unit }: Placement, positions: Float32Array): Float32Array {
+  const all = new Float32Array(positions.length);
+  for (let i = 0; i < positions.length; i += 3) {
+    all[i] = (positions[i] - center[0]) / unit;
+    all[i + 1] = (positions[i + 1] - center[1]) / unit;
+    all[i + 2] = (positions[i + 2] - center[2]) / unit;
+  }
+  return all;
+}
+
 export const toWorld = ({ center, unit }: Placement, point: Point): Point => [
   point[0] * unit + center[0],
   point[1] * unit + center[1],

@@ -3,7 +3,7 @@ import { MOUSE, OrthographicCamera, TOUCH } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { boundsOf, type Box, type Point } from '../shapes/vec.ts';
 import { toScene, type Placement } from './placement.ts';
-import { kEmptyRadius, Viewpoint, type Screen } from './viewpoint.ts';
+import { Viewpoint, type Screen } from './viewpoint.ts';
 
 /** What the bar of tools covers at the side, in CSS pixels. */
 const kToolBar = 72;
@@ -62,9 +62,8 @@ export class PlaneViewpoint extends Viewpoint {
   }
 
   frame(box: Box): void {
-    const { center, diagonal } = boundsOf(box);
+    const { center } = boundsOf(box);
     const { unit } = this.placement;
-    this.radius = diagonal / 2 || kEmptyRadius;
     const [width, height] = this.screen.size;
     const free = Math.max(width - 2 * kToolBar, width / 2);
     const extent = Math.max((box.high[0] - box.low[0]) / free, (box.high[1] - box.low[1]) / (0.8 * height));

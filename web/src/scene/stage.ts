@@ -2,9 +2,9 @@
 // and what the pen draws.
 import { effect, signal } from '@preact/signals';
 import { coordinatePlane, viewPlane, type Frame } from '../shapes/plane.ts';
-import type { Point } from '../shapes/vec.ts';
+import { boundsOf, type Point } from '../shapes/vec.ts';
 import { boxOfGroup } from '../state/document.ts';
-import { drawingPlane, framing, shown, tool, type DrawingPlane, type Tool } from '../state/store.ts';
+import { drawingPlane, framing, shown, tool, type DrawingPlane, type Framing, type Tool } from '../state/store.ts';
 import { PlaneGrid } from './grid.ts';
 import { kIdentity, type Placement } from './placement.ts';
 import { ModeScene, type ModeSceneOptions } from './mode_scene.ts';
@@ -54,7 +54,7 @@ export class Stage {
       if (wish === null) return;
       // With the next picture: what stands beside the scene may only just be coming.
       this.view.animate(() => {
-        this.frameAll(wish.direction, wish.atOnce);
+        this.frame(wish);
         return false;
       });
     });
@@ -95,11 +95,14 @@ export class Stage {
     return { ...this.drawingPlane(), origin: through };
   }
 
-  frameAll(direction?: Point, atOnce = false): void {
+  frame({ direction, atOnce, box }: Framing): void {
     const scene = this.current.peek();
     if (scene === null) return;
     this.view.resize();
-    scene.viewpoint.frame(boxOfGroup(scene.options.group.peek()), direction, atOnce);
+    const whole = boxOfGroup(scene.options.group.peek());
+    // A part of it in view makes what there is to see no smaller: nothing is cut off, and the grid stays as it is.
+    if (!box) scene.viewpoint.follow(boundsOf(whole).diagonal / 2, true);
+    scene.viewpoint.frame(box ?? whole, direction, atOnce);
   }
 
   /** Looks at the drawing plane straight on. */

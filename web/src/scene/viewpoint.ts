@@ -53,11 +53,11 @@ export abstract class Viewpoint implements Eye {
   /** Called before each frame. */
   abstract prepare(): void;
 
-  /** What there is to see has a radius now. Not followed at every step of a drag: the grid would crawl. */
-  follow(radius: number, isPlacedAnew: boolean): void {
+  /** What there is to see has a radius now. Not followed `exactly` at every step of a drag: the grid would crawl. */
+  follow(radius: number, exactly: boolean): void {
     const next = radius || kEmptyRadius;
     const ratio = next / this.radius;
-    if (!isPlacedAnew && ratio < 1.3 && ratio > 0.5) return;
+    if (!exactly && ratio < 1.3 && ratio > 0.5) return;
     this.radius = next;
     this.screen.moved();
   }

@@ -1,5 +1,5 @@
 // Closed lines of points, flat: what curves and polygons with holes are made of.
-import { kNoBox, type Box, type Point } from './vec.ts';
+import { boxOfPoints, type Box, type Point } from './vec.ts';
 
 /** Closed lines in space or in the plane: the last point of each joins the first. Nothing of it is ever changed. */
 export interface Lines {
@@ -74,19 +74,7 @@ export function without(lines: Lines, points: ReadonlySet<number>, whole: Readon
   return { dim, positions: kept.slice(0, dim * count), starts: Uint32Array.from(keptStarts) };
 }
 
-export function boxOfLines({ dim, positions }: Lines): Box {
-  let [lowX, lowY, lowZ, highX, highY, highZ] = [...kNoBox.low, ...kNoBox.high];
-  for (let at = 0; at < positions.length; at += dim) {
-    const [x, y, z] = [positions[at], positions[at + 1], dim === 3 ? positions[at + 2] : 0];
-    if (x < lowX) lowX = x;
-    if (x > highX) highX = x;
-    if (y < lowY) lowY = y;
-    if (y > highY) highY = y;
-    if (z < lowZ) lowZ = z;
-    if (z > highZ) highZ = z;
-  }
-  return { low: [lowX, lowY, lowZ], high: [highX, highY, highZ] };
-}
+export const boxOfLines = ({ dim, positions }: Lines): Box => boxOfPoints(positions, dim);
 
 /** What has been saved as lines, if it still is such: none of them empty, all coordinates finite. */
 export function readLines(dim: 2 | 3, saved: unknown): Lines | null {

@@ -26,6 +26,21 @@ export interface Box {
 
 export const kNoBox: Box = { low: [Infinity, Infinity, Infinity], high: [-Infinity, -Infinity, -Infinity] };
 
+/** The least box around points `[dim n]`; those of the plane lie at z = 0. */
+export function boxOfPoints(positions: Float32Array | Float64Array, dim: 2 | 3): Box {
+  let [lowX, lowY, lowZ, highX, highY, highZ] = [...kNoBox.low, ...kNoBox.high];
+  for (let at = 0; at < positions.length; at += dim) {
+    const [x, y, z] = [positions[at], positions[at + 1], dim === 3 ? positions[at + 2] : 0];
+    if (x < lowX) lowX = x;
+    if (x > highX) highX = x;
+    if (y < lowY) lowY = y;
+    if (y > highY) highY = y;
+    if (z < lowZ) lowZ = z;
+    if (z > highZ) highZ = z;
+  }
+  return { low: [lowX, lowY, lowZ], high: [highX, highY, highZ] };
+}
+
 /** The least box around all boxes. */
 export function unionOf(boxes: Iterable<Box>): Box {
   const [low, high] = [[...kNoBox.low], [...kNoBox.high]];

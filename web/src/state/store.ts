@@ -2,7 +2,7 @@
 // signals; everything that changes the document dispatches a command.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals';
 import type { PlaneKind } from '../shapes/plane.ts';
-import type { Point } from '../shapes/vec.ts';
+import type { Box, Point } from '../shapes/vec.ts';
 import {
   isNumberedAlike,
   kindOf,
@@ -152,13 +152,14 @@ export interface Shown {
 }
 export const shown = signal<Shown>({ surface: true, wires: true, vertices: true, grid: true });
 
-/** A wish to have all objects in view, from a direction or from where the eye is. */
+/** A wish to have all objects in view, or only what is in a box; from a direction or from where the eye is. */
 export interface Framing {
-  readonly direction?: Point;
+  readonly direction?: Point | undefined;
   readonly atOnce: boolean;
+  readonly box?: Box | undefined;
 }
 export const framing = signal<Framing | null>(null);
 
-export function requestFrame(direction?: Point, atOnce = false): void {
-  framing.value = direction ? { direction, atOnce } : { atOnce };
+export function requestFrame(direction?: Point, atOnce = false, box?: Box): void {
+  framing.value = { direction, atOnce, box };
 }

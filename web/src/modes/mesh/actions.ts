@@ -2,8 +2,7 @@
 import { computed } from '@preact/signals';
 import type { Action } from '../../app/actions.ts';
 import { fileStem, save } from '../../app/files.ts';
-import type { Stage } from '../../scene/stage.ts';
-import { boundsOf, normalize, subtract, type Point } from '../../shapes/vec.ts';
+import { add, cross, normalize, scale, subtract } from '../../shapes/vec.ts';
 import { newItem } from '../../state/document.ts';
 import { complain } from '../../state/notice.ts';
 import { choose, dispatch, put, requestFrame } from '../../state/store.ts';
@@ -14,6 +13,7 @@ import { chosenHoles, fill, fillAll, found, holes, isAnyLeft, leave, whole } fro
 import { view } from './looks.ts';
 import { meshKind } from './mesh_kind.ts';
 import { kNoChoices, meshGroup, type MeshShape } from './settings.ts';
+import { boxOfLoops, vertexAt } from './whole.ts';
 import { isFilled } from './wording.ts';
 
 /** What is about a hole that is looked at, in sizes of the hole. */
@@ -93,30 +93,16 @@ function saveFilled(extension: string, type: string, write: (mesh: MeshShape, na
 }
 
 /** Brings a hole into view, from outside. */
-export function lookAt(stage: Stage, hole: Hole): void {
+export function lookAt({ loops }: Hole): void {
   const now = found.peek();
-  const viewpoint = stage.current.peek()?.viewpoint;
-  if (now === null || !viewpoint) return;
-  const { positions } = now.of;
-  const at = (vertex: number): Point => [positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]];
-  const { vertices } = now.report.loops[hole.loops[0]];
-  const first = at(vertices[0]);
-  let [low, high, normal]: [Point, Point, Point] = [first, first, [0, 0, 0]];
-  for (let i = 0; i < vertices.length; i++) {
-    const [p, q] = [at(vertices[i]), at(vertices[(i + 1) % vertices.length])];
-    low = [Math.min(low[0], p[0]), Math.min(low[1], p[1]), Math.min(low[2], p[2])];
-    high = [Math.max(high[0], p[0]), Math.max(high[1], p[1]), Math.max(high[2], p[2])];
-    // Newell's sum, about a point of the rim so that far from the origin no digits are lost.
-    const [a, b] = [subtract(p, first), subtract(q, first)];
-    normal = [normal[0] + (a[1] - b[1]) * (a[2] + b[2]), normal[1] + (a[2] - b[2]) * (a[0] + b[0]), normal[2] + (a[0] - b[0]) * (a[1] + b[1])];
-  }
-  const { center, diagonal } = boundsOf({ low, high });
-  const { radius } = viewpoint;
-  const reach = (kAround * diagonal) / (2 * Math.sqrt(3));
-  viewpoint.frame({ low: center.map((x) => x - reach) as unknown as Point, high: center.map((x) => x + reach) as unknown as Point }, normalize(normal));
-  // What there is to see is as large as before: nothing of it is cut off.
-  viewpoint.radius = radius;
-  stage.view.invalidate();
+  if (now === null) return;
+  const rim = Array.from(now.report.loops[loops[0]].vertices, (vertex) => vertexAt(now.of, vertex));
+  // Newell's sum, about a point of the rim so that far from the origin no digits are lost.
+  const arms = rim.map((point) => subtract(point, rim[0]));
+  const normal = arms.map((arm, i) => cross(arm, arms[(i + 1) % arms.length])).reduce(add);
+  const { low, high } = boxOfLoops(now, loops);
+  const more = scale(subtract(high, low), (kAround - 1) / 2);
+  requestFrame(normalize(normal), false, { low: subtract(low, more), high: add(high, more) });
 }
 
 export function openExample({ title, shape, view: direction }: Example): void {

@@ -3,14 +3,14 @@ import { computed, effect } from '@preact/signals';
 import { Color } from 'three';
 import { FatLines } from '../../scene/fat_line.ts';
 import type { ModeScene } from '../../scene/mode_scene.ts';
-import type { Placement } from '../../scene/placement.ts';
+import { allToScene, toScene, type Placement } from '../../scene/placement.ts';
 import type { Stage } from '../../scene/stage.ts';
 import { patches, withPatches, type Patch } from './filling.ts';
 import type { Hole } from './grouping.ts';
 import { chosenHoles, found, holes, hoveredHole } from './holes.ts';
-import { LitSurface, placed, type SceneTriangles } from './lit_surface.ts';
+import { LitSurface, type SceneTriangles } from './lit_surface.ts';
 import { looksFor, rimColor, view } from './looks.ts';
-import type { Whole } from './whole.ts';
+import { vertexAt, type Found, type Whole } from './whole.ts';
 
 /** In CSS pixels. */
 const kRim = 2.2;
@@ -43,16 +43,16 @@ export function drawHoles(stage: Stage, { root, placement }: ModeScene): void {
     if (now === null || !view.value.rims) return;
     const grey = new Color(grid.line);
     const lightness = isDark.value ? 0.62 : 0.42;
-    const [ends, tints] = segmentsOf(now.of, holes.value, placement.value, (h) => (holes.value[h].isOpenRim ? grey : rimColor(h, lightness)));
+    const [ends, tints] = segmentsOf(now, holes.value, placement.value, (h) => (holes.value[h].isOpenRim ? grey : rimColor(h, lightness)));
     rims.put(ends, { width: kRim }, tints);
   });
   follow(() => {
-    const of = found.value?.of;
+    const now = found.value;
     const { curves } = theme.value;
     marked.clear();
-    if (!of) return;
-    const put = (of1: readonly number[], width: number, order: number, colorOf: (h: number) => Color): void => {
-      const [ends, tints] = segmentsOf(of, of1.map((h) => holes.value[h]), placement.value, (i) => colorOf(of1[i]));
+    if (now === null) return;
+    const put = (of: readonly number[], width: number, order: number, colorOf: (h: number) => Color): void => {
+      const [ends, tints] = segmentsOf(now, of.map((h) => holes.value[h]), placement.value, (i) => colorOf(of[i]));
       marked.put(ends, { width, isOnTop: true, order }, tints);
     };
     const selected = new Color(curves.selected);
@@ -63,19 +63,19 @@ export function drawHoles(stage: Stage, { root, placement }: ModeScene): void {
 }
 
 /** The rims of holes as segments, and a colour for each. */
-function segmentsOf({ positions }: Whole, all: readonly Hole[], { center, unit }: Placement, colorOf: (h: number) => Color): [Float32Array, Float32Array] {
-  const loops = found.peek()?.report.loops ?? [];
+function segmentsOf({ of, report }: Found, all: readonly Hole[], placement: Placement, colorOf: (h: number) => Color): [Float32Array, Float32Array] {
   const count = all.reduce((sum, { vertices }) => sum + vertices, 0);
   const [ends, tints] = [new Float32Array(6 * count), new Float32Array(3 * count)];
   let [to, segment] = [0, 0];
   all.forEach((hole, h) => {
     const color = colorOf(h);
     for (const loop of hole.loops) {
-      const { vertices } = loops[loop];
+      const { vertices } = report.loops[loop];
       for (let i = 0; i < vertices.length; i++) {
         color.toArray(tints, 3 * segment++);
         for (const vertex of [vertices[i], vertices[i + 1 === vertices.length ? 0 : i + 1]]) {
-          for (let axis = 0; axis < 3; axis++) ends[to++] = (positions[3 * vertex + axis] - center[axis]) / unit;
+          ends.set(toScene(placement, vertexAt(of, vertex)), to);
+          to += 3;
         }
       }
     }
@@ -84,7 +84,7 @@ function segmentsOf({ positions }: Whole, all: readonly Hole[], { center, unit }
 }
 
 /** The triangles of all patches, with only the vertices that they have; those that intersect something are marked. */
-function trianglesOf(of: Whole, all: readonly Patch[], { center, unit }: Placement): SceneTriangles {
+function trianglesOf(of: Whole, all: readonly Patch[], placement: Placement): SceneTriangles {
   const { positions, faces } = withPatches(of, all);
   const first = of.faces.length;
   const crossed = [...new Set(all.flatMap((patch) => patch.crossed))];
@@ -108,5 +108,5 @@ function trianglesOf(of: Whole, all: readonly Patch[], { center, unit }: Placeme
   }
   const own = new Float32Array(3 * numbers.size);
   for (const [vertex, number] of numbers) own.set(positions.subarray(3 * vertex, 3 * vertex + 3), 3 * number);
-  return { positions: placed(own, center, unit), faces: corners, marked };
+  return { positions: allToScene(placement, own), faces: corners, marked };
 }

@@ -1,12 +1,13 @@
 // Filling the holes that are to be filled, in the worker. Patches are kept: only those that are missing, or were made in
 // another way, are computed.
 import { computed, signal } from '@preact/signals';
-import type { FilledHole, FillOptions, FillResult } from 'soapfilm';
+import type { FilledHole, FillOptions, FillResult, HoleReport } from 'soapfilm';
+import { add, subtract, type Box } from '../../shapes/vec.ts';
 import { createWork, plainFailure } from '../../state/work.ts';
 import { found, holes, settings, wishFor } from './holes.ts';
 import type { Hole } from './grouping.ts';
 import { kMode, type MeshSettings, type Smoothness } from './settings.ts';
-import type { Whole } from './whole.ts';
+import { boxOfLoops, type Whole } from './whole.ts';
 
 /** What became of one hole. */
 export interface Patch {
@@ -25,6 +26,7 @@ export interface Patch {
 
 interface Job {
   readonly of: Whole;
+  readonly report: HoleReport;
   readonly holes: readonly Hole[];
   readonly manner: string;
   readonly options: FillOptions;
@@ -43,10 +45,10 @@ const wanted = computed(() => holes.value.filter((hole) => wishFor(hole) === 'fi
 const jobKey = computed(() => [mannerOf(settings.value), ...wanted.value.map(keyOf)].join('\n'));
 
 const job = computed<Job | null>(() => {
-  const of = found.value?.of;
-  if (!of || jobKey.value.indexOf('\n') < 0) return null;
+  const now = found.value;
+  if (now === null || jobKey.value.indexOf('\n') < 0) return null;
   const { smoothness, density, candidates } = settings.peek();
-  return { of, holes: wanted.peek(), manner: mannerOf(settings.peek()), options: { fairness: kFairness[smoothness], density, candidates } };
+  return { ...now, holes: wanted.peek(), manner: mannerOf(settings.peek()), options: { fairness: kFairness[smoothness], density, candidates } };
 });
 
 /** The patch of a hole, if it is to have one and has: perhaps one that was made in another way. */
@@ -95,38 +97,25 @@ export const filling = createWork<Job, ReadonlyMap<string, Patch>>({
 });
 
 /** The holes whose patches are missing, and those so near to them that the patches may meet. */
-function missing({ of, holes: all, manner }: Job): Hole[] {
+function missing({ of, report, holes: all, manner }: Job): Hole[] {
   const isMade = (hole: Hole): boolean => {
     const patch = kept.peek().get(keyOf(hole));
     return patch !== undefined && patch.of === of && patch.manner === manner;
   };
   const todo = all.filter((hole) => !isMade(hole));
   if (todo.length === 0 || todo.length === all.length) return todo;
-  const boxes = todo.map(boxOfHole);
-  return all.filter((hole) => !isMade(hole) || boxes.some((box) => doMeet(box, boxOfHole(hole))));
+  const reachOf = ({ loops }: Hole): Box => grown(boxOfLoops({ of, report }, loops));
+  const boxes = todo.map(reachOf);
+  return all.filter((hole) => !isMade(hole) || boxes.some((box) => doMeet(box, reachOf(hole))));
 }
 
-type Bounds = readonly [low: readonly number[], high: readonly number[]];
-
-/** The box of a hole's rims, and half as much again all round for what bulges. */
-function boxOfHole({ loops }: Hole): Bounds {
-  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
-  const now = found.peek();
-  for (const loop of now ? loops : []) {
-    for (const vertex of now?.report.loops[loop].vertices ?? []) {
-      for (let axis = 0; axis < 3; axis++) {
-        const x = now?.of.positions[3 * vertex + axis] ?? 0;
-        low[axis] = Math.min(low[axis], x);
-        high[axis] = Math.max(high[axis], x);
-      }
-    }
-  }
-  const more = Math.max(...high.map((x, axis) => x - low[axis])) / 2;
-  return [low.map((x) => x - more), high.map((x) => x + more)];
+/** A box and half as much again all round, for what bulges. */
+function grown({ low, high }: Box): Box {
+  const more = Math.max(...subtract(high, low)) / 2;
+  return { low: subtract(low, [more, more, more]), high: add(high, [more, more, more]) };
 }
 
-const doMeet = ([lowA, highA]: Bounds, [lowB, highB]: Bounds): boolean =>
-  lowA.every((x, axis) => x <= highB[axis] && lowB[axis] <= highA[axis]);
+const doMeet = (a: Box, b: Box): boolean => a.low.every((x, axis) => x <= b.high[axis] && b.low[axis] <= a.high[axis]);
 
 /** The patches in a result of only patches, each with its own vertices. */
 function patchesIn({ mesh, oldVertices, oldFaces, holes: results }: FillResult, { of, manner }: Job): Patch[] {

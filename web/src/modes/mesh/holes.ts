@@ -7,17 +7,12 @@ import { createWork, plainFailure } from '../../state/work.ts';
 import { holesOf, join, split, type Hole } from './grouping.ts';
 import { kMode, kNoChoices, meshGroup, type Choices, type MeshSettings } from './settings.ts';
 import { countTwins, weld } from './weld.ts';
-import { idsOf, loopAt, noteRims, placeOf, shapeOf, wholeOf, type Whole } from './whole.ts';
+import { idsOf, loopAt, noteRims, placeOf, shapeOf, wholeOf, type Found, type Whole } from './whole.ts';
 
 const items = computed(() => meshGroup.value.items);
 
 /** All meshes as one; null: there are none. Another object only where the meshes have changed. */
 export const whole = computed(() => (items.value.length > 0 ? wholeOf(items.value) : null));
-
-interface Found {
-  readonly of: Whole;
-  readonly report: HoleReport;
-}
 
 const latest = signal<Found | null>(null);
 

@@ -8,6 +8,7 @@ import { filling, isSettled, patches, withPatches, type Patch } from './filling.
 import type { Hole } from './grouping.ts';
 import { chosenHoles, found, holes, hoveredHole, whole, wishFor } from './holes.ts';
 import { meshGroup, type MeshSettings } from './settings.ts';
+import { vertexAt } from './whole.ts';
 import { isFilled } from './wording.ts';
 
 export interface MeshInspection {
@@ -51,8 +52,8 @@ export function exposeForInspection({ view }: Stage, { viewpoint }: ModeScene): 
   };
   window.__meshes = Object.assign(valuesOf(signals), {
     whereIs: (vertex: number) => {
-      const { positions } = whole.peek() ?? { positions: [] };
-      const at = viewpoint.project([positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]]);
+      const of = whole.peek();
+      const at = of ? viewpoint.project(vertexAt(of, vertex)) : { x: NaN, y: NaN };
       return inWindow(view.canvas, at.x, at.y);
     },
   });

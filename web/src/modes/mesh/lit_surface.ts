@@ -198,14 +198,3 @@ function normalsOf(p: Float32Array, faces: Uint32Array): Float32Array {
   }
   return normals;
 }
-
-/** Positions in the scene. */
-export function placed(positions: Float32Array, center: readonly number[], unit: number): Float32Array {
-  const all = new Float32Array(positions.length);
-  for (let i = 0; i < positions.length; i += 3) {
-    all[i] = (positions[i] - center[0]) / unit;
-    all[i + 1] = (positions[i + 1] - center[1]) / unit;
-    all[i + 2] = (positions[i + 2] - center[2]) / unit;
-  }
-  return all;
-}

@@ -1,18 +1,19 @@
 // The kind of object that is a mesh. Its parts are its rims, once they have been found: they are chosen, and never moved.
 import { Group, type Object3D } from 'three';
-import type { DrawnKind, Drawn, Hit, Layer, Marks } from '../../scene/kind.ts';
+import { areSame, type DrawnKind, type Drawn, type Hit, type Layer, type Marks } from '../../scene/kind.ts';
 import { distanceOf, shareAlong, type Eye, type Projected, type Spot } from '../../scene/eye.ts';
-import { add, kNoBox, scale, subtract, type Box, type Point } from '../../shapes/vec.ts';
+import { allToScene, type Placement } from '../../scene/placement.ts';
+import { add, boxOfPoints, scale, subtract, type Point } from '../../shapes/vec.ts';
 import type { Item } from '../../state/document.ts';
-import { LitSurface, placed } from './lit_surface.ts';
+import { LitSurface } from './lit_surface.ts';
 import { looksFor } from './looks.ts';
 import { kMesh, type MeshShape } from './settings.ts';
-import { rimsOf, shapeOf } from './whole.ts';
+import { rimsOf, shapeOf, vertexAt } from './whole.ts';
 
 export const meshKind: DrawnKind<MeshShape> = {
   name: kMesh,
   isFixed: true,
-  boxOf,
+  boxOf: ({ positions }) => boxOfPoints(positions, 3),
   partStarts: (shape) => rimsOf(shape).starts,
   handleAt: (shape, handle) => vertexAt(shape, rimsOf(shape).vertices[handle]),
   move: (shape) => shape,
@@ -21,28 +22,6 @@ export const meshKind: DrawnKind<MeshShape> = {
   pick: pickRim,
   makeLayer: () => new MeshLayer(),
 };
-
-const vertexAt = ({ positions }: MeshShape, vertex: number): Point => [
-  positions[3 * vertex],
-  positions[3 * vertex + 1],
-  positions[3 * vertex + 2],
-];
-
-function boxOf({ positions: p }: MeshShape): Box {
-  if (p.length === 0) return kNoBox;
-  let [x0, y0, z0] = kNoBox.low;
-  let [x1, y1, z1] = kNoBox.high;
-  for (let i = 0; i < p.length; i += 3) {
-    const [x, y, z] = [p[i], p[i + 1], p[i + 2]];
-    if (x < x0) x0 = x;
-    if (x > x1) x1 = x;
-    if (y < y0) y0 = y;
-    if (y > y1) y1 = y;
-    if (z < z0) z0 = z;
-    if (z > z1) z1 = z;
-  }
-  return { low: [x0, y0, z0], high: [x1, y1, z1] };
-}
 
 function readShape(saved: unknown): MeshShape | null {
   const { positions, faces } = (saved ?? {}) as Partial<Record<keyof MeshShape, unknown>>;
@@ -84,12 +63,12 @@ function pickRim(shape: MeshShape, eye: Eye, at: Spot, reach: number): Hit | nul
 class MeshLayer implements Layer {
   readonly object: Object3D = new Group();
   private surfaces = new Map<MeshShape, LitSurface>();
-  private shown: { readonly items: readonly Item[]; readonly placement: Drawn['placement'] } | null = null;
+  private shown: { readonly items: readonly Item[]; readonly placement: Placement } | null = null;
 
   update(items: readonly Item[], _: Marks, { placement, theme }: Drawn): void {
     // Pointing at something comes here too, and changes nothing of this.
     const { shown } = this;
-    const isSame = shown?.placement === placement && shown.items.length === items.length && items.every((item, i) => item.shape === shown.items[i].shape);
+    const isSame = shown?.placement === placement && areSame(shown.items, items);
     if (!isSame) {
       const before = shown?.placement === placement ? this.surfaces : new Map<MeshShape, LitSurface>();
       const next = new Map<MeshShape, LitSurface>();
@@ -105,8 +84,8 @@ class MeshLayer implements Layer {
   }
 }
 
-function surfaceOf({ positions, faces }: MeshShape, { center, unit }: Drawn['placement']): LitSurface {
+function surfaceOf({ positions, faces }: MeshShape, placement: Placement): LitSurface {
   const made = new LitSurface(0, 0.25);
-  made.set({ positions: placed(positions, center, unit), faces });
+  made.set({ positions: allToScene(placement, positions), faces });
   return made;
 }

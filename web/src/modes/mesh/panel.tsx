@@ -5,7 +5,6 @@ import { linear, NumberField, Section, Segments, Switch, type Choice } from '../
 import { countOf } from '../../app/files.ts';
 import { boundsOf } from '../../shapes/vec.ts';
 import { boxOfGroup } from '../../state/document.ts';
-import type { Stage } from '../../scene/stage.ts';
 import { shown } from '../../state/store.ts';
 import type { Work } from '../../state/work.ts';
 import { chosen, lookAt, openExample } from './actions.ts';
@@ -57,15 +56,17 @@ export const summary = computed(() => {
   return triangles.value > 0 ? `${words}, ${countOf(triangles.value, 'triangle')}` : words;
 });
 
-export const panelFor = (stage: Stage) => () => (
-  <>
-    <Result />
-    <Holes stage={stage} />
-    <Filling />
-    <Show />
-    <Examples />
-  </>
-);
+export function MeshPanel() {
+  return (
+    <>
+      <Result />
+      <Holes />
+      <Filling />
+      <Show />
+      <Examples />
+    </>
+  );
+}
 
 function Result() {
   const report = found.value?.report;
@@ -121,7 +122,7 @@ function Trouble({ work }: { work: Work }) {
   );
 }
 
-function Holes({ stage }: { stage: Stage }) {
+function Holes() {
   const all = holes.value;
   const [isAll, setAll] = useState(false);
   if (all.length === 0) return null;
@@ -143,7 +144,7 @@ function Holes({ stage }: { stage: Stage }) {
       <Chosen />
       <ul class="mesh-holes" onPointerLeave={() => { hoverHole(null); }}>
         {listed.map((hole, h) => (
-          <HoleRow key={hole.loops[0]} stage={stage} hole={hole} number={h} />
+          <HoleRow key={hole.loops[0]} hole={hole} number={h} />
         ))}
       </ul>
       {all.length > listed.length && (
@@ -204,7 +205,7 @@ function statusOf(hole: Hole): Status {
   return patch.result.status === 'self-intersecting' ? ['filled', 'bad', 'it crosses something: marked in red'] : ['filled', 'good'];
 }
 
-function HoleRow({ stage, hole, number }: { stage: Stage; hole: Hole; number: number }) {
+function HoleRow({ hole, number }: { hole: Hole; number: number }) {
   // There may be hundreds of rows: one is made anew only when something about it changes.
   const isThis = useComputed(() => chosenHoles.value.includes(number)).value;
   const isHovered = useComputed(() => hoveredHole.value === number).value;
@@ -225,7 +226,7 @@ function HoleRow({ stage, hole, number }: { stage: Stage; hole: Hole; number: nu
           } else if (isThis && chosenHoles.peek().length === 1) chooseHoles();
           else {
             chooseHoles(number);
-            lookAt(stage, hole);
+            lookAt(hole);
           }
         }}
       >

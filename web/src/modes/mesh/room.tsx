@@ -9,10 +9,10 @@ import { filling, patchOf } from './filling.ts';
 import { finding, found, holes } from './holes.ts';
 import { exposeForInspection } from './inspection.ts';
 import { meshKind } from './mesh_kind.ts';
-import { panelFor, summary } from './panel.tsx';
+import { MeshPanel, summary } from './panel.tsx';
 import { readMesh } from './read.ts';
 import { areMeshSettings, kSettings, type MeshSettings } from './settings.ts';
-import { placeOf } from './whole.ts';
+import { placeOf, vertexAt } from './whole.ts';
 import { isFilled, reasonIn, wordsFor } from './wording.ts';
 
 /** Work that failed, and holes that have no surface. */
@@ -24,9 +24,8 @@ const failures = computed<readonly Failure[]>(() => {
     const patch = patchOf(hole);
     const place = placeOf(now.of, hole.loops[0]);
     if (patch === null || isFilled(patch) || place === null) return [];
-    const at = 3 * now.report.loops[hole.loops[0]].vertices[0];
-    const [x, y, z] = now.of.positions.subarray(at, at + 3);
-    return [{ code: patch.result.reason ?? 'failed', message: `Hole ${h + 1}: ${reasonIn(patch)}.`, faults: [{ place, isEdge: false }], point: [x, y, z] }];
+    const point = vertexAt(now.of, now.report.loops[hole.loops[0]].vertices[0]);
+    return [{ code: patch.result.reason ?? 'failed', message: `Hole ${h + 1}: ${reasonIn(patch)}.`, faults: [{ place, isEdge: false }], point }];
   });
   return [...ofWork, ...ofHoles];
 });
@@ -58,5 +57,5 @@ export const openRoom = (stage: Stage): Room => ({
   summary,
   panelLabel: 'Holes',
   sceneLabel: 'Scene: mesh, rims and patches. Arrows turn the view; brackets choose a rim, Enter fills its hole.',
-  Panel: panelFor(stage),
+  Panel: MeshPanel,
 });

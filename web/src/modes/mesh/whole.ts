@@ -1,5 +1,6 @@
 // All meshes of the group as one, as the library takes them, and the rims that were found in each.
 import type { HoleReport } from 'soapfilm';
+import { unionOf, type Box, type Point } from '../../shapes/vec.ts';
 import type { Id, Item, Place } from '../../state/document.ts';
 import type { MeshShape } from './settings.ts';
 
@@ -11,6 +12,25 @@ export interface Whole extends MeshShape {
 }
 
 export const shapeOf = (item: Item): MeshShape => item.shape as MeshShape;
+
+/** Where a vertex is. */
+export const vertexAt = ({ positions }: MeshShape, vertex: number): Point => [
+  positions[3 * vertex],
+  positions[3 * vertex + 1],
+  positions[3 * vertex + 2],
+];
+
+/** What was found in a mesh. */
+export interface Found {
+  readonly of: Whole;
+  readonly report: HoleReport;
+}
+
+/** The least box around some of the loops that were found. */
+export function boxOfLoops({ of, report }: Found, loops: readonly number[]): Box {
+  const points = loops.flatMap((loop) => Array.from(report.loops[loop].vertices, (vertex) => vertexAt(of, vertex)));
+  return unionOf(points.map((point) => ({ low: point, high: point })));
+}
 
 export function wholeOf(items: readonly Item[]): Whole {
   const shapes = items.map(shapeOf);
