@@ -272,20 +272,6 @@ TEST_CASE("groupRims: noise of a quarter of an edge does not matter") {
   }
 }
 
-TEST_CASE("regroupRims: groups as the caller joins them") {
-  const TestMesh mesh = without(sphereMesh(4), isBetween({0, 0, 1}, 0.25, 0.6));
-  Grouped g = groupsOf(mesh);
-  REQUIRE(g.groups.votes.size() == 1);
-  CHECK(g.groups.votes[0].isJoined);
-  CHECK(g.groups.doubts.empty());
-  g.groups.votes[0].isJoined = false;
-  Work work;
-  Charge charge(work);
-  REQUIRE(regroupRims(mesh.view(), g.adjacency, g.rims, work, g.groups));
-  CHECK(g.groups.count() == 2);
-  CHECK(faultOf(g) == "");
-}
-
 TEST_CASE("groupRims: any faces at all") {
   MESSAGE("seed 43");
   Random random(43);

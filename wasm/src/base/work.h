@@ -34,6 +34,8 @@ class Work {
   void release(uint64_t bytes) { used_ -= bytes; }
   /// Whether `bytes` more would still fit: for sizes predicted before the work begins.
   bool fits(double bytes) const { return bytes <= double(maxBytes_) - double(used_); }
+  /// Bytes up to the limit.
+  uint64_t left() const { return used_ < maxBytes_ ? maxBytes_ - used_ : 0; }
 
   /// Counts `units` of about a nanosecond, and calls the progress function now and then. False once
   /// the work has to end for whatever reason: return at once, and free what you hold.

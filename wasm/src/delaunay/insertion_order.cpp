@@ -1,29 +1,12 @@
 #include "delaunay/insertion_order.h"
 
 #include <algorithm>
-#include <cstring>
 
+#include "base/hash.h"
 #include "base/sort.h"
 
 namespace sf {
 namespace {
-
-uint64_t mix(uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-  return x ^ (x >> 31);
-}
-
-uint64_t bitsOf(double x) {
-  x += 0.0;  // -0 becomes 0
-  uint64_t bits;
-  std::memcpy(&bits, &x, sizeof bits);
-  return bits;
-}
-
-uint64_t hashOf(const Vec3& p) {
-  return mix(bitsOf(p.x) + mix(bitsOf(p.y) + mix(bitsOf(p.z) + 0x9E3779B97F4A7C15u)));
-}
 
 constexpr int kBits = 20;  // per axis
 
@@ -96,7 +79,7 @@ bool sortForInsertion(ArrayView<const Vec3> points, Work& work, std::vector<uint
     auto cell = [](double x) { return uint32_t((x + 1) * ((1u << kBits) / 2 - 0.5)); };
     const Vec3& p = points[order[i]];
     int round = rounds;
-    for (uint64_t h = mix(order[i] + 1); round > 0 && (h & 1); h >>= 1) --round;
+    for (uint64_t h = mixed(order[i] + 1); round > 0 && (h & 1); h >>= 1) --round;
     keys[i].place = uint64_t(round) << (3 * kBits) ^ hilbertPlace(cell(p.x), cell(p.y), cell(p.z));
     keys[i].number = order[i];
   }

@@ -123,9 +123,8 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
   std::vector<double> normals;
   for (const Corner& corner : hole.corners) {
     positions.push_back(point(corner.vertex));
-    const Vec3 n = corner.edge == kNone ? Vec3{0, 0, 0} : rims_.normals[corner.edge];
-    const bool isKnown = dot(n, n) > 0;
-    for (const double x : {n.x, n.y, n.z}) normals.push_back(isKnown ? x : std::nan(""));
+    appendBoundaryNormal(corner.edge == kNone ? Vec3{0, 0, 0} : rims_.normals[corner.edge],
+                         normals);
   }
   const std::vector<uint32_t>& starts = hole.starts;
   const LoopSet loops({positions.data(), positions.size()}, {starts.data(), starts.size()});

@@ -3,6 +3,7 @@
 // Source: Zou, Ju, Carr 2013, sec. 5, takes rims as given. Where several rims meet at a vertex they
 // could be followed in several ways: here across the gaps between faces, whichever pairing turns least.
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -34,6 +35,13 @@ struct Rims {
     return e + 1 == starts[rim + 1] ? starts[rim] : e + 1;
   }
 };
+
+/// Appends the normal of the face at a rim edge, as SpanOptions has it: NaN if it cannot be told.
+inline void appendBoundaryNormal(Vec3 normal, std::vector<double>& normals) {
+  const bool isKnown = dot(normal, normal) > 0;
+  for (const double x : {normal.x, normal.y, normal.z})
+    normals.push_back(isKnown ? x : std::nan(""));
+}
 
 /// Finds all rims. Slits between two faces that a cut left open at one edge are none.
 /// Rims that pass a vertex twice are parted there. Rims of components that are not orientable cross

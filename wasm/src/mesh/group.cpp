@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/sort.h"
+#include "base/union_find.h"
 #include "mesh/body.h"
+#include "mesh/joint_cost.h"
 #include "mesh/vote.h"
 
 namespace sf {
@@ -29,32 +30,22 @@ class Grouper {
         temporary_(work),
         g_(result) {}
 
-  /// Memory of `doubts` is charged to `charge`.
-  bool joinByVotes(Charge& charge);
+  bool joinByVotes();
   bool group();
 
  private:
-  bool reserveParents() {
-    return temporary_.add(rims_.count() * (4 * sizeof(uint32_t) + 3 * sizeof(double)));
-  }
-  void separateAll() {
-    parents_.resize(rims_.count());
-    std::iota(parents_.begin(), parents_.end(), 0u);
+  bool reserveRims() {
+    return temporary_.add(rims_.count() * (4 * sizeof(uint32_t) + 4 * sizeof(double)));
   }
   void findTurnings() {
     turnings_.clear();
     for (uint32_t r = 0; r < rims_.count(); ++r) turnings_.push_back(turningOf(r));
   }
-  uint32_t rootOf(uint32_t r) {
-    while (parents_[r] != r) r = parents_[r] = parents_[parents_[r]];
-    return r;
-  }
-  /// The lesser root stays: groups come by their least rims.
-  void unite(uint32_t p, uint32_t q) { parents_[std::max(p, q)] = std::min(p, q); }
   bool joinByGroups();
   bool joinIslands();
   bool isIsland(uint32_t rim) const { return turnings_[rim] < -kPi; }
-  bool findDoubts(Charge& charge);
+  bool decideDoubts();
+  void sortByVote(std::vector<uint32_t>& votes) const;
   void join();
   void finish(uint32_t first, uint32_t root);
   double turningOf(uint32_t rim) const;
@@ -67,22 +58,20 @@ class Grouper {
   Work& work_;
   Charge temporary_;
   Grouping& g_;
-  std::vector<uint32_t> parents_;
+  UnionFind joined_;
   std::vector<double> turnings_;  // [k]
   std::vector<double> scores_;    // of groups, at their roots
 };
 
-bool Grouper::joinByVotes(Charge& charge) {
-  if (!reserveParents()) return false;
-  separateAll();
+bool Grouper::joinByVotes() {
+  if (!reserveRims()) return false;
+  joined_.reset(rims_.count());
   findTurnings();
   for (RimVote& v : g_.votes) {
     v.isJoined = v.vote >= kJoinsFrom;
-    if (!v.isJoined) continue;
-    const uint32_t p = rootOf(v.first), q = rootOf(v.second);
-    if (p != q) unite(p, q);
+    if (v.isJoined) joined_.unite(v.first, v.second);
   }
-  return joinByGroups() && joinIslands() && findDoubts(charge);
+  return joinByGroups() && joinIslands() && decideDoubts();
 }
 
 /// An island in the midst of others looks at all of them, and at the outer rim, a little each.
@@ -113,8 +102,8 @@ bool Grouper::joinByGroups() {
       sums.clear();
       for (j = i; j < looks.size() && looks[j].rim == rim; ++j) {
         const RimVote& v = g_.votes[looks[j].vote];
-        const uint32_t root = rootOf(v.first == rim ? v.second : v.first);
-        if (root == rootOf(rim)) continue;
+        const uint32_t root = joined_.rootOf(v.first == rim ? v.second : v.first);
+        if (root == joined_.rootOf(rim)) continue;
         const double share = v.first == rim ? v.shareOfFirst : v.shareOfSecond;
         const auto same =
             std::find_if(sums.begin(), sums.end(), [&](const Sum& s) { return s.root == root; });
@@ -130,8 +119,7 @@ bool Grouper::joinByGroups() {
         RimVote& v = g_.votes[s.strongest];
         v.vote = std::min(1.0, std::max(v.vote, s.share));
         v.isJoined = true;
-        const uint32_t p = rootOf(rim), q = rootOf(s.root);
-        if (p != q) unite(p, q), goesOn = true;
+        goesOn |= joined_.unite(rim, s.root);
       }
     }
   }
@@ -157,12 +145,12 @@ bool Grouper::joinIslands() {
     std::fill(isAllIslands.begin(), isAllIslands.end(), uint8_t(1));
     if (!work_.tick(uint32_t(std::min<size_t>(g_.votes.size() * 50, 1u << 30)))) return false;
     for (uint32_t r = 0; r < rims_.count(); ++r) {
-      lengths[rootOf(r)] += rims_.rims[r].length;
-      if (!isIsland(r)) isAllIslands[rootOf(r)] = 0;
+      lengths[joined_.rootOf(r)] += rims_.rims[r].length;
+      if (!isIsland(r)) isAllIslands[joined_.rootOf(r)] = 0;
     }
     for (uint32_t i = 0; i < g_.votes.size(); ++i) {
       const RimVote& v = g_.votes[i];
-      const uint32_t p = rootOf(v.first), q = rootOf(v.second);
+      const uint32_t p = joined_.rootOf(v.first), q = joined_.rootOf(v.second);
       if (p == q || isAllIslands[p] == isAllIslands[q]) continue;
       const double length = v.shareOfFirst * rims_.rims[v.first].length +
                             v.shareOfSecond * rims_.rims[v.second].length;
@@ -184,29 +172,43 @@ bool Grouper::joinIslands() {
       }
       if (!(sum >= kJoinsIslandFrom * lengths[island]) || !(sum > 0)) continue;
       RimVote& v = g_.votes[strongest];
-      const uint32_t p = rootOf(v.first), q = rootOf(v.second);
-      if (p == q) continue;
+      if (!joined_.unite(v.first, v.second)) continue;
       v.isJoined = true;
       v.vote = std::min(1.0, std::max(v.vote, sum / lengths[island]));
-      unite(p, q), goesOn = true;
+      goesOn = true;
     }
   }
   return true;
 }
 
-bool Grouper::findDoubts(Charge& charge) {
-  separateAll();
-  for (const RimVote& v : g_.votes)
-    if (v.vote > kDoubtTo) {
-      const uint32_t p = rootOf(v.first), q = rootOf(v.second);
-      if (p != q) unite(p, q);
-    }
+/// Lets the cost decide on what is in doubt, from the strongest vote on: what is joined by then is no doubt.
+bool Grouper::decideDoubts() {
+  joined_.reset(rims_.count());
+  std::vector<uint32_t> doubts;
   for (uint32_t i = 0; i < g_.votes.size(); ++i) {
     const RimVote& v = g_.votes[i];
-    if (v.vote < kDoubtFrom || v.vote > kDoubtTo || rootOf(v.first) == rootOf(v.second)) continue;
-    if (!push(g_.doubts, i, charge)) return false;
+    if (v.vote > kDoubtTo)
+      joined_.unite(v.first, v.second);
+    else if (v.vote >= kDoubtFrom && !push(doubts, i, temporary_))
+      return false;
+  }
+  sortByVote(doubts);
+  JointCost cost(mesh_, rims_, work_);
+  for (const uint32_t i : doubts) {
+    RimVote& v = g_.votes[i];
+    if (joined_.rootOf(v.first) == joined_.rootOf(v.second)) continue;
+    Verdict verdict;
+    if (!cost.compare(v.first, v.second, verdict)) return false;
+    if (verdict != Verdict::Unknown) v.isJoined = verdict == Verdict::Together;
+    if (v.isJoined) joined_.unite(v.first, v.second);
   }
   return true;
+}
+
+void Grouper::sortByVote(std::vector<uint32_t>& votes) const {
+  sf::sort(votes.begin(), votes.end(), [&](uint32_t i, uint32_t j) {
+    return g_.votes[i].vote != g_.votes[j].vote ? g_.votes[i].vote > g_.votes[j].vote : i < j;
+  });
 }
 
 /// From the strongest vote on, so that the last one that joins a group is its score.
@@ -215,31 +217,26 @@ void Grouper::join() {
   order.reserve(g_.votes.size());
   for (uint32_t i = 0; i < g_.votes.size(); ++i)
     if (g_.votes[i].isJoined) order.push_back(i);
-  sf::sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) {
-    return g_.votes[i].vote != g_.votes[j].vote ? g_.votes[i].vote > g_.votes[j].vote : i < j;
-  });
+  sortByVote(order);
   scores_.assign(rims_.count(), 1);
   for (const uint32_t i : order) {
-    const uint32_t p = rootOf(g_.votes[i].first), q = rootOf(g_.votes[i].second);
-    if (p == q) continue;
-    unite(p, q);
-    scores_[std::min(p, q)] = g_.votes[i].vote;
+    const RimVote& v = g_.votes[i];
+    if (joined_.unite(v.first, v.second)) scores_[joined_.rootOf(v.first)] = v.vote;
   }
 }
 
 bool Grouper::group() {
-  if (!reserveParents() || !temporary_.add(g_.votes.size() * sizeof(uint32_t)) ||
+  if (!temporary_.add(g_.votes.size() * sizeof(uint32_t)) ||
       !work_.tick(uint32_t(std::min<size_t>(rims_.vertices.size() * 100, 1u << 30))))
     return false;
-  separateAll();
-  findTurnings();
+  joined_.reset(rims_.count());
   join();
   struct Member {
     uint32_t root, rim;
   };
   std::vector<Member> members;
   members.reserve(rims_.count());
-  for (uint32_t r = 0; r < rims_.count(); ++r) members.push_back({rootOf(r), r});
+  for (uint32_t r = 0; r < rims_.count(); ++r) members.push_back({joined_.rootOf(r), r});
   sf::sort(members.begin(), members.end(), [](const Member& a, const Member& b) {
     return a.root != b.root ? a.root < b.root : a.rim < b.rim;
   });
@@ -311,18 +308,13 @@ bool Grouper::closeBodies() {
 
 }  // namespace
 
-bool regroupRims(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work,
-                 Grouping& result) {
-  return Grouper(mesh, adjacency, rims, work, result).group();
-}
-
 bool groupRims(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work,
                Charge& charge, Grouping& result) {
   if (!castVotes(mesh, rims, work, charge, result)) return false;
   // starts, rims, kinds, scores, flags: no more groups than rims, now and later.
   if (!charge.add(rims.count() * (2 * sizeof(uint32_t) + sizeof(double) + 3))) return false;
-  return Grouper(mesh, adjacency, rims, work, result).joinByVotes(charge) &&
-         regroupRims(mesh, adjacency, rims, work, result);
+  Grouper grouper(mesh, adjacency, rims, work, result);
+  return grouper.joinByVotes() && grouper.group();
 }
 
 }  // namespace sf

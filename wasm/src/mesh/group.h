@@ -3,7 +3,7 @@
 // Source: Zou, Ju, Carr 2013, sec. 5 and 6: holes with islands, grouped by hand; "automatic grouping
 // by the cost of the triangulation" is left as future work there.
 // Differs: rims vote. Every edge of a rim looks away from its face for the edge that a fair surface
-// would lead to at least cost; where votes leave a pair open, it is handed out for the cost to decide.
+// would lead to at least cost. Where votes leave a pair open, the cost of the triangulation decides.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -28,9 +28,6 @@ struct RimVote {
 struct Grouping {
   std::vector<double> openness;  // [k] share of each rim, by length, that faces nothing
   std::vector<RimVote> votes;    // all pairs with votes, by rims
-  /// Votes from kDoubtFrom to kDoubtTo between rims that stronger votes do not join: the cost of spans
-  /// should decide. Indices in `votes`.
-  std::vector<uint32_t> doubts;
 
   std::vector<uint32_t> starts;    // [g+1] in `rims`
   std::vector<uint32_t> rims;      // [k] outer rim first, then by number; groups by their least rim
@@ -48,18 +45,15 @@ constexpr double kJoinsFrom = 0.4;        // least vote that joins two rims
 constexpr double kJoinsGroupFrom = 0.5;   // least share at a group that joins a rim to it
 constexpr double kJoinsIslandFrom = 0.4;  // least length that looks at an island, over its own
 constexpr double kOpenFrom = 0.5;         // an open rim has more openness
-constexpr double kDoubtFrom = 0.3, kDoubtTo = 0.65;  // votes that the cost should confirm
+constexpr double kDoubtFrom = 0.15, kDoubtTo = 0.8;  // votes that the cost decides on
 
-/// Groups rims by their votes.
+/// Groups rims by their votes. Pairs with votes from kDoubtFrom to kDoubtTo that stronger ones do not join are
+/// joined if they cost less together than apart; by their votes, where that is Unknown (JointCost).
 /// A group is open if more than kOpenFrom of its rims' length faces nothing. But the only open group of a
 /// body, whose closing leaves it a body and no sheet, is a hole: of a bowl, or half a sphere.
-/// About O(m + r log r) time for r edges of rims. Memory of the result is charged to `charge`.
+/// About O(m + r log r) time for r edges of rims, and what JointCost takes for doubts. Memory of the result is charged to `charge`.
 /// False once `work` has to end.
 bool groupRims(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work,
                Charge& charge, Grouping& result);
-
-/// Makes the groups anew after `isJoined` of votes has been changed. O(m + r).
-bool regroupRims(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work,
-                 Grouping& result);
 
 }  // namespace sf

@@ -1,29 +1,11 @@
 #include "mesh/weld.h"
 
 #include <cmath>
-#include <cstring>
 
-#include "base/vec.h"
+#include "base/hash.h"
 
 namespace sf {
 namespace {
-
-uint64_t mixed(uint64_t x) {  // splitmix64
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
-uint64_t bitsOf(double x) {
-  x += 0.0;  // no -0
-  uint64_t bits;
-  std::memcpy(&bits, &x, sizeof bits);
-  return bits;
-}
-
-uint64_t hashOf(Vec3 cell) {
-  return mixed(bitsOf(cell.x) + mixed(bitsOf(cell.y) + mixed(bitsOf(cell.z) + 1)));
-}
 
 /// Kept vertices in chains by the hash of their cells. Cells are as large as the radius; without
 /// one, every position is its own cell.

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "base/hash.h"
 #include "base/sort.h"
+#include "base/union_find.h"
 #include "loops/domains/lower_bound.h"
 
 namespace sf {
@@ -27,24 +28,16 @@ constexpr double kChanceOfTurning = 0.15;
 /// Loops that bridges have joined so far.
 class SurfaceSearch::Forest {
  public:
-  explicit Forest(uint32_t loops) : parent_(loops), trees_(loops) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
+  explicit Forest(uint32_t loops) : joined_(loops), trees_(loops) {}
   bool join(uint32_t a, uint32_t b) {
-    a = find(a), b = find(b);
-    if (a == b) return false;
-    parent_[a] = b;
+    if (!joined_.unite(a, b)) return false;
     --trees_;
     return true;
   }
   uint32_t trees() const { return trees_; }
 
  private:
-  uint32_t find(uint32_t c) {
-    while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
-    return c;
-  }
-  std::vector<uint32_t> parent_;
+  UnionFind joined_;
   uint32_t trees_;
 };
 
@@ -63,10 +56,7 @@ SurfaceSearch::SurfaceSearch(const Task& task, Incumbent& best)
 
 double SurfaceSearch::random() {
   seed_ += 0x9E3779B97F4A7C15u;
-  uint64_t x = seed_;
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-  return double((x ^ (x >> 31)) >> 11) * 0x1p-53;
+  return double(mixed(seed_) >> 11) * 0x1p-53;
 }
 
 void SurfaceSearch::keepNear() {
