@@ -35,6 +35,7 @@ class Parting {
     if (ends_.size() == 4) joinFour();
     for (const auto& part : result_.parts)
       if (part.size() < 3) return {};
+    result_.areBetweenCreases = true;
     return std::move(result_);
   }
 

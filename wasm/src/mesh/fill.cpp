@@ -5,6 +5,7 @@
 
 #include "mesh/smooth_patch.h"
 #include "mesh/stitch.h"
+#include "mesh/touch.h"
 
 namespace sf {
 namespace {
@@ -15,6 +16,9 @@ constexpr uint32_t kRings = 5;
 constexpr uint32_t kMostForAll = 300;
 /// Angles along the rim below this are none.
 constexpr double kExact = 1e-3;
+/// How far corners at one vertex are moved apart to be spanned, in lengths of the shorter edge there: too little to
+/// change angles, and much more than rounding.
+constexpr double kApart = 1e-6;
 /// More pairs of intersecting faces are not listed.
 constexpr size_t kMostPairs = 10000;
 
@@ -49,9 +53,12 @@ bool runsAlong(const LoopSet& loops, const std::vector<uint32_t>& triangles) {
 }  // namespace
 
 /// A corner of the loops around a patch, and the edge from it to the next one.
-struct Corner {
-  uint32_t vertex;        // of the filled mesh
-  uint32_t edge = kNone;  // the rim edge that begins there, or kNone
+struct HoleFiller::Corner {
+  uint32_t vertex;         // of the filled mesh
+  uint32_t edge = kNone;   // the rim edge that begins there, or kNone
+  uint32_t local = kNone;  // the vertex in `Hole::vertices`: of several corners, where rims touch
+  uint32_t next = kNone, before = kNone;  // corners of the same loop
+  uint32_t other = kNone;                 // the corner before this one at the same vertex
 };
 
 struct HoleFiller::Hole {
@@ -59,21 +66,24 @@ struct HoleFiller::Hole {
   std::vector<uint32_t> starts;    // [k+1] in `corners`
   bool crossesSeam = false;        // one of its rims does
   bool isPart = false;             // between creases, which bound what is around it as well
-  std::vector<uint32_t> vertices;  // of the filled mesh: the fixed vertices, corners first
-  LocalSurface surface;            // fixed vertices as in `vertices`
+  std::vector<uint32_t> vertices;  // of the filled mesh: the fixed vertices, those of corners first
+  std::vector<uint32_t> lastCorners;  // [vertices of corners] the last one there
+  LocalSurface surface;               // fixed vertices as in `vertices`
 
-  /// The corner after each.
-  std::vector<uint32_t> nextCorners() const {
-    std::vector<uint32_t> next(corners.size());
-    for (size_t l = 0; l + 1 < starts.size(); ++l)
-      for (uint32_t i = starts[l]; i < starts[l + 1]; ++i)
-        next[i] = i + 1 < starts[l + 1] ? i + 1 : starts[l];
-    return next;
+  bool isCorner(uint32_t local) const { return local < lastCorners.size(); }
+  /// Whether rims touch, so that the loops come to a vertex again.
+  bool touches() const { return lastCorners.size() < corners.size(); }
+  /// The corner whose edge runs between two local vertices, or kNone.
+  uint32_t cornerBetween(uint32_t from, uint32_t to) const {
+    if (!isCorner(from)) return kNone;
+    for (uint32_t c = lastCorners[from]; c != kNone; c = corners[c].other)
+      if (corners[corners[c].next].local == to) return c;
+    return kNone;
   }
-  /// Whether a corner of a part with one loop is where another part begins.
-  bool isBetween(uint32_t corner) const {
-    const size_t before = corner > 0 ? corner - 1 : corners.size() - 1;
-    return corners[corner].edge == kNone || corners[before].edge == kNone;
+  /// Whether another part begins at a vertex of a part with one loop.
+  bool isBetween(uint32_t local) const {
+    const Corner& corner = corners[lastCorners[local]];
+    return corner.edge == kNone || corners[corner.before].edge == kNone;
   }
 };
 
@@ -128,7 +138,7 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
   std::vector<Vec3> positions;
   std::vector<double> normals;
   for (const Corner& corner : hole.corners) {
-    positions.push_back(point(corner.vertex));
+    positions.push_back(placeToSpan(hole, corner));
     appendBoundaryNormal(corner.edge == kNone ? Vec3{0, 0, 0} : rims_.normals[corner.edge],
                          normals);
   }
@@ -194,20 +204,61 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
     result.reason = FillReason::OpposedRims;
     return Status::Ok;
   }
+  for (uint32_t& v : triangles) v = corners[v].local;
+  if (hole.touches() && !hasSimpleEdges(triangles)) {
+    result.reason = FillReason::RepeatedVertex;
+    return Status::Ok;
+  }
   hole.surface.triangles.insert(hole.surface.triangles.end(), triangles.begin(), triangles.end());
   result.status = FillStatus::Filled;
   return Status::Ok;
 }
 
+/// Where rims touch, each corner at the vertex is moved a little into its own gap.
+Vec3 HoleFiller::placeToSpan(const Hole& hole, const Corner& corner) const {
+  const Vec3 at = point(corner.vertex);
+  if (corner.other == kNone && &hole.corners[hole.lastCorners[corner.local]] == &corner) return at;
+  const Corner &before = hole.corners[corner.before], &next = hole.corners[corner.next];
+  const Vec3 in = at - point(before.vertex), out = point(next.vertex) - at;
+  const double shorter = std::min(length(in), length(out));
+  if (before.edge == kNone || corner.edge == kNone || !(shorter > 0)) return at;
+  // Away from the faces at both edges; or along these, where the gap has no width.
+  Vec3 inward = (1 / length(in)) * cross(rims_.normals[before.edge], in) +
+                (1 / length(out)) * cross(rims_.normals[corner.edge], out);
+  if (!(length(inward) > kExact)) inward = (1 / length(out)) * out - (1 / length(in)) * in;
+  const double size = length(inward);
+  return size > 0 ? at + (kApart * shorter / size) * inward : at;
+}
+
+/// Whether the faces around each vertex that rims touch at, with new ones from `firstFace` on, are one fan.
+bool HoleFiller::areFans(const Hole& hole, uint32_t firstFace) const {
+  const size_t from = 3 * (firstFace - mesh_.faces.size() / 3);
+  for (const Corner& corner : hole.corners) {
+    if (corner.other == kNone) continue;
+    std::vector<uint32_t> triangles(newFaces_.begin() + ptrdiff_t(from), newFaces_.end());
+    const uint32_t v = corner.vertex;
+    for (uint32_t i = around_.fanStarts[v]; i < around_.fanStarts[v + 1]; ++i)
+      appendFace(around_.fans[i], triangles);
+    if (!isFan(triangles, v)) return false;
+  }
+  return true;
+}
+
+/// Appends a face, turned if the adjacency turns it.
+void HoleFiller::appendFace(uint32_t face, std::vector<uint32_t>& triangles) const {
+  const uint32_t* c = mesh_.faces.data() + 3 * size_t(face);
+  const bool isTurned = adjacency_.turned[face] != 0;
+  triangles.insert(triangles.end(), {c[0], c[isTurned ? 2 : 1], c[isTurned ? 1 : 2]});
+}
+
 /// Where a span has put vertices on the rims.
 std::vector<RimSplit> HoleFiller::splitsOf(const Hole& hole, const Span& span) const {
   std::vector<RimSplit> splits;
-  const std::vector<uint32_t> next = hole.nextCorners();
   for (const InsertedVertex& v : span.inserted) {
     const uint32_t corner = hole.starts[v.loop] + v.edge, edge = hole.corners[corner].edge;
     if (edge == kNone || adjacency_.isCut(rims_.halves[edge])) return {};
     splits.push_back({rims_.halves[edge] / 3, hole.corners[corner].vertex,
-                      hole.corners[next[corner]].vertex, v.parameter});
+                      hole.corners[hole.corners[corner].next].vertex, v.parameter});
   }
   return splits;
 }
@@ -230,33 +281,30 @@ bool HoleFiller::isBorderTaken(const Hole& hole) const {
 }
 
 /// Whether an edge of the patch runs between two corners, and is in the mesh already or may be in another patch.
-bool HoleFiller::isTakenChord(const Hole& hole, const std::vector<uint32_t>& next, uint32_t a,
-                              uint32_t b) const {
-  const size_t corners = hole.corners.size();
-  if (a >= corners || b >= corners || next[a] == b || next[b] == a) return false;
+bool HoleFiller::isTakenChord(const Hole& hole, uint32_t a, uint32_t b) const {
+  if (!hole.isCorner(a) || !hole.isCorner(b)) return false;
+  if (hole.cornerBetween(a, b) != kNone || hole.cornerBetween(b, a) != kNone) return false;
   const bool isAlongBorder = hole.isPart && hole.isBetween(a) && hole.isBetween(b);
   return isAlongBorder || isTaken(hole.vertices[a], hole.vertices[b]);
 }
 
 uint32_t HoleFiller::countTakenChords(const Hole& hole) const {
   const LocalSurface& s = hole.surface;
-  const std::vector<uint32_t> next = hole.nextCorners();
   uint32_t halves = 0;
   for (size_t t = 3 * size_t(s.fixedTriangles); t < s.triangles.size(); t += 3)
     for (int k = 0; k < 3; ++k)
-      halves += isTakenChord(hole, next, s.triangles[t + k], s.triangles[t + (k + 1) % 3]);
+      halves += isTakenChord(hole, s.triangles[t + k], s.triangles[t + (k + 1) % 3]);
   return halves / 2;
 }
 
 /// Splits taken chords, so that no edge gets more than two faces. The shape stays as it is.
 void HoleFiller::splitChords(Hole& hole, bool inFloats) {
   LocalSurface& s = hole.surface;
-  const std::vector<uint32_t> next = hole.nextCorners();
   // The triangles grow while they are looked at: halves are looked at again.
   for (size_t t = 3 * size_t(s.fixedTriangles); t < s.triangles.size(); t += 3)
     for (int k = 0; k < 3; ++k) {
       const uint32_t a = s.triangles[t + k], b = s.triangles[t + (k + 1) % 3];
-      if (!isTakenChord(hole, next, a, b)) continue;
+      if (!isTakenChord(hole, a, b)) continue;
       const uint32_t middle = uint32_t(s.positions.size() / 3);
       const Vec3 m = 0.5 * (pointAt(s.positions, a) + pointAt(s.positions, b));
       for (const double x : {m.x, m.y, m.z}) s.positions.push_back(inFloats ? double(float(x)) : x);
@@ -337,10 +385,23 @@ Vec3 HoleFiller::point(uint32_t vertex) const {
 void HoleFiller::surround(Hole& hole, double crease) {
   const uint32_t n = uint32_t(mesh_.positions.size() / 3);
   std::vector<uint32_t>& vertices = hole.vertices;
-  for (const Corner& corner : hole.corners) vertices.push_back(corner.vertex);
-  // A vertex of two rims, where they touch, has two numbers; the mesh knows the first.
-  for (uint32_t i = uint32_t(vertices.size()); i-- > 0;)
-    if (vertices[i] < n) local_[vertices[i]] = i;
+  for (size_t l = 0; l + 1 < hole.starts.size(); ++l)
+    for (uint32_t i = hole.starts[l]; i < hole.starts[l + 1]; ++i) {
+      Corner& corner = hole.corners[i];
+      corner.next = i + 1 < hole.starts[l + 1] ? i + 1 : hole.starts[l];
+      corner.before = i > hole.starts[l] ? i - 1 : hole.starts[l + 1] - 1;
+      const bool isOld = corner.vertex < n;
+      if (isOld && local_[corner.vertex] != kNone) {
+        corner.local = local_[corner.vertex];
+        corner.other = hole.lastCorners[corner.local];
+        hole.lastCorners[corner.local] = i;
+        continue;
+      }
+      corner.local = uint32_t(vertices.size());
+      if (isOld) local_[corner.vertex] = corner.local;
+      vertices.push_back(corner.vertex);
+      hole.lastCorners.push_back(i);
+    }
   std::vector<uint32_t> faces;
   if (hole.isPart)
     takeSide(hole, crease, faces);
@@ -353,12 +414,8 @@ void HoleFiller::surround(Hole& hole, double crease) {
     const Vec3 p = point(v);
     surface.positions.insert(surface.positions.end(), {p.x, p.y, p.z});
   }
-  for (const uint32_t f : faces) {
-    const uint32_t* c = mesh_.faces.data() + 3 * size_t(f);
-    const bool isTurned = adjacency_.turned[f] != 0;
-    for (const uint32_t v : {c[0], c[isTurned ? 2 : 1], c[isTurned ? 1 : 2]})
-      surface.triangles.push_back(local_[v]);
-  }
+  for (const uint32_t f : faces) appendFace(f, surface.triangles);
+  for (uint32_t& v : surface.triangles) v = local_[v];
   surface.fixedVertices = uint32_t(vertices.size());
   surface.fixedTriangles = uint32_t(surface.triangles.size() / 3);
   for (const uint32_t v : vertices)
@@ -368,14 +425,13 @@ void HoleFiller::surround(Hole& hole, double crease) {
 /// The mean angle between the patch and the faces along the rim.
 double HoleFiller::rimAngle(const Hole& hole, double* largest) const {
   const LocalSurface& s = hole.surface;
-  const std::vector<uint32_t> next = hole.nextCorners();
   double sum = 0;
   uint32_t count = 0;
   for (size_t t = 3 * size_t(s.fixedTriangles); t < s.triangles.size(); t += 3)
     for (int k = 0; k < 3; ++k) {
-      const uint32_t a = s.triangles[t + k], b = s.triangles[t + (k + 1) % 3];
-      if (a >= hole.corners.size() || next[a] != b || hole.corners[a].edge == kNone) continue;
-      const Vec3 n = rims_.normals[hole.corners[a].edge];
+      const uint32_t corner = hole.cornerBetween(s.triangles[t + k], s.triangles[t + (k + 1) % 3]);
+      if (corner == kNone || hole.corners[corner].edge == kNone) continue;
+      const Vec3 n = rims_.normals[hole.corners[corner].edge];
       if (dot(n, n) == 0) continue;
       const double angle = angleBetween(
           n, normalOf(s.positions, s.triangles[t], s.triangles[t + 1], s.triangles[t + 2]));
@@ -464,16 +520,43 @@ Status HoleFiller::fillWhole(ArrayView<const uint32_t> rims, const FillOptions& 
   }
   Hole hole;
   hole.starts = {0};
-  for (const uint32_t r : rims) {
-    hole.crossesSeam |= rims_.rims[r].crossesSeam;
-    for (uint32_t e = rims_.starts[r]; e < rims_.starts[r + 1]; ++e)
-      hole.corners.push_back({rims_.vertices[e], e});
+  for (const uint32_t r : rims) hole.crossesSeam |= rims_.rims[r].crossesSeam;
+  for (const std::vector<uint32_t>& loop : loopsAround(rims_, rims)) {
+    for (const uint32_t e : loop) hole.corners.push_back({rims_.vertices[e], e});
     hole.starts.push_back(uint32_t(hole.corners.size()));
   }
+  const size_t positions = newPositions_.size(), faces = newFaces_.size();
   result.firstFace = faceCount();
   const Status status = fillPart(hole, options, result);
   result.endFace = faceCount();
-  return status;
+  if (status != Status::Ok || !hole.touches()) return status;
+  if (result.status != FillStatus::Failed && areFans(hole, result.firstFace)) return status;
+  newPositions_.resize(positions), newFaces_.resize(faces);
+  return fillApart(hole, rims, options, result);
+}
+
+/// Fills two rims that touch, but do not bound one surface there, each by itself.
+Status HoleFiller::fillApart(const Hole& hole, ArrayView<const uint32_t> rims,
+                             const FillOptions& options, FilledHole& result) {
+  const size_t positions = newPositions_.size(), faces = newFaces_.size();
+  HoleParts parts;
+  for (const uint32_t r : rims) {
+    parts.parts.emplace_back();
+    for (uint32_t e = rims_.starts[r]; e < rims_.starts[r + 1]; ++e)
+      parts.parts.back().push_back({e, rims_.vertices[e], kNone});
+  }
+  bool isDone = false;
+  result = {};
+  if (rims.size() == 2) {
+    const Status status = fillParts(parts, options, result, isDone);
+    if (status != Status::Ok) return status;
+    if (isDone && areFans(hole, result.firstFace)) return Status::Ok;
+  }
+  newPositions_.resize(positions), newFaces_.resize(faces);
+  result = {};
+  result.reason = FillReason::RepeatedVertex;
+  result.firstFace = result.endFace = faceCount();
+  return Status::Ok;
 }
 
 /// Fills the parts of a hole apart. `isDone`: there are such, and all are filled well.
@@ -497,7 +580,7 @@ Status HoleFiller::fillParts(const HoleParts& parts, const FillOptions& options,
   double angleBefore = 0, angleAfter = 0, cost = 0, bound = 0;
   for (const auto& part : parts.parts) {
     Hole hole;
-    hole.isPart = !isStitched;
+    hole.isPart = parts.areBetweenCreases;
     for (const PartCorner& c : part)
       hole.corners.push_back({c.vertex != kNone ? c.vertex : firstPoint + c.added, c.edge});
     hole.starts = {0, uint32_t(hole.corners.size())};

@@ -98,12 +98,18 @@ class HoleFiller {
   std::vector<uint32_t> takeFaces() { return std::move(newFaces_); }
 
  private:
+  struct Corner;
   struct Hole;
   Status fillWhole(ArrayView<const uint32_t> rims, const FillOptions& options, FilledHole& result);
+  Status fillApart(const Hole& hole, ArrayView<const uint32_t> rims, const FillOptions& options,
+                   FilledHole& result);
   Status fillPart(Hole& hole, const FillOptions& options, FilledHole& result);
   Status fillParts(const HoleParts& parts, const FillOptions& options, FilledHole& result,
                    bool& isDone);
   Status span(Hole& hole, const FillOptions& options, FilledHole& result);
+  Vec3 placeToSpan(const Hole& hole, const Corner& corner) const;
+  bool areFans(const Hole& hole, uint32_t firstFace) const;
+  void appendFace(uint32_t face, std::vector<uint32_t>& triangles) const;
   std::vector<RimSplit> splitsOf(const Hole& hole, const Span& span) const;
   void surround(Hole& hole, double crease);
   void takeRings(Hole& hole, std::vector<uint32_t>& faces);
@@ -112,8 +118,7 @@ class HoleFiller {
   bool findPairs(const Hole& hole, std::vector<FacePair>& pairs);
   bool findOwnPairs(uint32_t from, uint32_t to, std::vector<FacePair>& pairs);
   double rimAngle(const Hole& hole, double* largest) const;
-  bool isTakenChord(const Hole& hole, const std::vector<uint32_t>& next, uint32_t a,
-                    uint32_t b) const;
+  bool isTakenChord(const Hole& hole, uint32_t a, uint32_t b) const;
   uint32_t countTakenChords(const Hole& hole) const;
   void splitChords(Hole& hole, bool inFloats);
   bool isTaken(uint32_t a, uint32_t b) const;

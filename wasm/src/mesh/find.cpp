@@ -52,6 +52,7 @@ class RimFinder {
   double gapCost(End arriving, End leaving) const;
   bool trace();
   bool split(const std::vector<Step>& walk);
+  bool noteTouches(const std::vector<Step>& walk);
   bool add(ArrayView<Step> walk);
   double diameterOf(ArrayView<const uint32_t> vertices);
   Vec3 normalOf(uint32_t h) const;
@@ -77,6 +78,7 @@ class RimFinder {
   std::vector<uint32_t> edges_;   // half-edges of rims, by number
   std::vector<End> mates_;        // [2 edges] the end that a rim goes on with
   std::vector<uint32_t> seenAt_;  // [n] place in a walk, while one is split
+  std::vector<uint32_t> places_;  // [edges] in `rims_`, or kNone
 };
 
 bool RimFinder::collect() {
@@ -191,9 +193,10 @@ double RimFinder::gapCost(End arriving, End leaving) const {
 bool RimFinder::trace() {
   std::vector<uint8_t> isDone(edges_.size(), 0);
   seenAt_.assign(a_.vertices, kNone);
+  places_.assign(edges_.size(), kNone);
   rims_.starts.push_back(0);
   if (!charge_.add(edges_.size() * (2 * sizeof(uint32_t) + sizeof(Vec3))) ||
-      !temporary_.add(edges_.size() * (1 + 2 * sizeof(Step))))
+      !temporary_.add(edges_.size() * (1 + 2 * sizeof(Step) + sizeof(uint32_t))))
     return false;
   rims_.vertices.reserve(edges_.size());
   rims_.halves.reserve(edges_.size());
@@ -210,7 +213,25 @@ bool RimFinder::trace() {
     } while (end / 2 != seed);
     SF_ASSERT(end % 2 == 0);
     if (!work_.tick(uint32_t(std::min<size_t>(walk.size() * 300, 1u << 30)))) return false;
-    if (!split(walk)) return false;
+    const uint32_t before = rims_.count();
+    if (!split(walk) || (rims_.count() > before + 1 && !noteTouches(walk))) return false;
+  }
+  sf::sort(rims_.touches.begin(), rims_.touches.end(),
+           [](const RimTouch& p, const RimTouch& q) { return p.before < q.before; });
+  return true;
+}
+
+/// Where a walk that was parted went on from one rim to another. Slits in it are passed over.
+bool RimFinder::noteTouches(const std::vector<Step>& walk) {
+  std::vector<uint32_t> edges;
+  for (const Step s : walk) {
+    if (s.isAgainst) return true;  // across a seam: parts of it may run either way
+    if (places_[s.edge] != kNone) edges.push_back(places_[s.edge]);
+  }
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const uint32_t before = edges[i], after = edges[(i + 1) % edges.size()];
+    if (rims_.nextEdge(rims_.rimOf(before), before) == after) continue;
+    if (!push(rims_.touches, {before, after}, charge_)) return false;
   }
   return true;
 }
@@ -248,6 +269,7 @@ bool RimFinder::add(ArrayView<Step> walk) {
   for (const Step s : walk) {
     const uint32_t h = edges_[s.edge], v = vertexOf(2 * s.edge + End(s.isAgainst));
     const Vec3 normal = normalOf(h);
+    places_[s.edge] = uint32_t(rims_.vertices.size());
     rims_.vertices.push_back(v);
     rims_.halves.push_back(h);
     rims_.normals.push_back(s.isAgainst ? -normal : normal);

@@ -19,6 +19,7 @@ struct HoleParts {
   std::vector<std::vector<PartCorner>> parts;  // a loop each, as faces that fill it run
   std::vector<Vec3> points;                    // added, on the edges between parts
   std::vector<uint32_t> triangles;  // [3t] vertices of the input: faces between the parts
+  bool areBetweenCreases = false;   // which bound what is around each part as well
 };
 
 }  // namespace sf
