@@ -14,16 +14,20 @@ using namespace sftest;
 
 namespace {
 
-/// All holes of a mesh filled, open rims too if `all`.
+using RimLists = std::vector<std::vector<uint32_t>>;
+
+/// All holes of a mesh filled, open rims too if `all`; or the rims that are `given`, one list a hole.
 struct Filled {
   std::vector<FilledHole> holes;
   TestMesh mesh;
   uint32_t open = 0;
 };
 
-Filled fillAll(const TestMesh& input, const FillOptions& options = {}, bool all = false) {
+Filled fillAll(const TestMesh& input, const FillOptions& options = {}, bool all = false,
+               RimLists given = {}) {
   Work work;
   Charge charge(work);
+  const bool isGiven = !given.empty();
   const MeshView mesh = input.view();
   REQUIRE(checkMesh(mesh).ok());
   Adjacency adjacency;
@@ -36,16 +40,17 @@ Filled fillAll(const TestMesh& input, const FillOptions& options = {}, bool all 
   REQUIRE(survey(mesh, adjacency, rims, work, charge, around));
   HoleFiller filler(mesh, adjacency, rims, around, work);
   Filled result;
-  for (uint32_t g = 0; g < groups.count(); ++g) {
-    if (groups.isOpenRim[g] && !all) {
+  for (uint32_t g = 0; g < groups.count() && !isGiven; ++g) {
+    if (groups.isOpenRim[g] && !all)
       ++result.open;
-      continue;
-    }
-    FilledHole hole;
-    REQUIRE(filler.fill({groups.rims.data() + groups.starts[g],
-                         size_t(groups.starts[g + 1] - groups.starts[g])},
-                        options, hole) == Status::Ok);
-    result.holes.push_back(hole);
+    else
+      given.emplace_back(groups.rims.begin() + groups.starts[g],
+                         groups.rims.begin() + groups.starts[g + 1]);
+  }
+  for (const std::vector<uint32_t>& hole : given) {
+    FilledHole filled;
+    REQUIRE(filler.fill(hole, options, filled) == Status::Ok);
+    result.holes.push_back(filled);
   }
   result.mesh = input;
   result.mesh.positions.insert(result.mesh.positions.end(), filler.newPositions().begin(),
@@ -80,6 +85,106 @@ void expectWhole(const Filled& filled, size_t holes) {
   std::vector<FacePair> pairs;
   REQUIRE(findSelfIntersections(filled.mesh.view(), 0, filled.mesh.faceCount(), 100, work, pairs));
   CHECK(pairs.empty());
+}
+
+/// Vertices whose faces are not one closed fan.
+uint32_t pinched(const TestMesh& mesh) {
+  std::map<uint32_t, std::map<uint32_t, uint32_t>> around;
+  for (size_t f = 0; f < mesh.faces.size(); f += 3)
+    for (int k = 0; k < 3; ++k)
+      around[mesh.faces[f + k]][mesh.faces[f + (k + 1) % 3]] = mesh.faces[f + (k + 2) % 3];
+  uint32_t count = 0;
+  for (auto& [vertex, next] : around) {
+    uint32_t at = next.begin()->first;
+    size_t steps = 0;
+    do at = next[at], ++steps;
+    while (at != next.begin()->first && steps <= next.size());
+    count += steps != next.size();
+  }
+  return count;
+}
+
+/// Regions of a closed mesh that is cut: faces by what they are.
+class Cutting {
+ public:
+  Cutting(const TestMesh& mesh, const PlaceTest& isHole) : mesh_(mesh) {
+    for (uint32_t f = 0; f < mesh.faceCount(); ++f) isGone_.push_back(isHole(mesh.middle(f)));
+  }
+  std::vector<uint32_t> facesAt(uint32_t vertex) const {
+    std::vector<uint32_t> faces;
+    for (uint32_t f = 0; f < mesh_.faceCount(); ++f)
+      if (has(f, vertex)) faces.push_back(f);
+    return faces;
+  }
+  /// Whether a vertex is of faces that stay.
+  bool isTaken(uint32_t vertex) const {
+    for (const uint32_t f : facesAt(vertex))
+      if (!isGone_[f]) return true;
+    return false;
+  }
+  /// Makes an island of some faces of the hole that touches what is there at `vertex` alone: the first such face, and
+  /// `rings` of faces around it. False if there is none.
+  bool addIsland(uint32_t vertex, uint32_t rings) {
+    for (const uint32_t f : facesAt(vertex)) {
+      if (!isGone_[f] || touched(f) != isTaken(vertex)) continue;
+      std::vector<uint32_t> island{f};
+      const std::vector<uint8_t> before = isGone_;
+      for (uint32_t ring = 0; ring < rings; ++ring) {
+        const std::vector<uint32_t> last = island;
+        for (const uint32_t g : last)
+          for (int k = 0; k < 3; ++k) {
+            const uint32_t corner = mesh_.faces[3 * g + k];
+            if (corner == vertex) continue;
+            for (const uint32_t other : facesAt(corner))
+              if (isGone_[other] && touched(other) == 0) island.push_back(other);
+          }
+      }
+      for (const uint32_t g : island) isGone_[g] = 0;
+      return true;
+    }
+    return false;
+  }
+  /// Makes an island of all of the hole but a strip along its rim, which it touches at some vertices.
+  void addIslandInside(const std::vector<uint32_t>& vertices) {
+    std::vector<uint32_t> island;
+    for (uint32_t f = 0; f < mesh_.faceCount(); ++f)
+      if (isGone_[f] && touched(f) == 0) island.push_back(f);
+    for (const uint32_t v : vertices)
+      for (const uint32_t f : facesAt(v))
+        if (isGone_[f] && touched(f) == 1) {
+          island.push_back(f);
+          break;
+        }
+    for (const uint32_t f : island) isGone_[f] = 0;
+  }
+  TestMesh cut() const {
+    TestMesh result = mesh_;
+    result.faces.clear();
+    for (uint32_t f = 0; f < mesh_.faceCount(); ++f)
+      if (!isGone_[f])
+        result.addFace(mesh_.faces[3 * f], mesh_.faces[3 * f + 1], mesh_.faces[3 * f + 2]);
+    return result;
+  }
+
+ private:
+  bool has(uint32_t f, uint32_t v) const {
+    return mesh_.faces[3 * f] == v || mesh_.faces[3 * f + 1] == v || mesh_.faces[3 * f + 2] == v;
+  }
+  uint32_t touched(uint32_t f) const {
+    uint32_t count = 0;
+    for (int k = 0; k < 3; ++k) count += isTaken(mesh_.faces[3 * f + k]);
+    return count;
+  }
+  TestMesh mesh_;
+  std::vector<uint8_t> isGone_;
+};
+
+/// The vertex nearest to a place.
+uint32_t nearest(const TestMesh& mesh, Vec3 to) {
+  uint32_t best = 0;
+  for (uint32_t v = 1; v < mesh.vertexCount(); ++v)
+    if (distance(mesh.at(v), to) < distance(mesh.at(best), to)) best = v;
+  return best;
 }
 
 /// The largest distance of new vertices from the unit sphere.
@@ -267,5 +372,92 @@ TEST_CASE("fill: work that ends gives back a status and leaves what was filled b
     const Status status = filler.fill(all, {}, hole);
     CHECK((status == Status::Ok || status == Status::OutOfMemory));
     if (status != Status::Ok) CHECK(filler.newFaces().empty());
+  }
+}
+
+TEST_CASE("fill: an island that touches the rim in a vertex closes to one surface with it") {
+  const TestMesh sphere = sphereMesh(4);
+  for (const uint32_t rings : {0u, 1u, 2u}) {
+    uint32_t touching = 0;
+    for (uint32_t v = 0; v < sphere.vertexCount(); ++v) {
+      Cutting cutting(sphere, isNear({0, 0, 1}, 0.55));
+      if (!cutting.isTaken(v) || !cutting.addIsland(v, rings)) continue;
+      if (++touching % 5 != 1) continue;  // some of them
+      CAPTURE(rings);
+      CAPTURE(v);
+      const TestMesh cut = cutting.cut();
+      const Filled filled = fillAll(cut);
+      expectWhole(filled, 1);
+      CHECK(pinched(filled.mesh) == 0);
+      CHECK(offSphere(filled, cut.vertexCount()) < 5e-3);
+    }
+    CHECK(touching > 5);
+  }
+}
+
+TEST_CASE(
+    "fill: an island that touches the rim in two vertices leaves two holes, in three, three") {
+  const TestMesh sphere = sphereMesh(4);
+  std::vector<uint32_t> touching;
+  for (const double angle : {0.3, 2.2, 4.4}) {
+    // The vertex of the rim in that direction from which a face of the hole goes inwards.
+    const Cutting cutting(sphere, isNear({0, 0, 1}, 0.55));
+    uint32_t best = kNone;
+    double most = -1;
+    for (uint32_t v = 0; v < sphere.vertexCount(); ++v) {
+      Cutting tried = cutting;
+      const Vec3 p = sphere.at(v);
+      const double along = p.x * std::cos(angle) + p.y * std::sin(angle);
+      if (along > most && cutting.isTaken(v) && tried.addIsland(v, 0)) most = along, best = v;
+    }
+    touching.push_back(best);
+    Cutting pinchedOff = cutting;
+    pinchedOff.addIslandInside(touching);
+    const TestMesh cut = pinchedOff.cut();
+    const Filled filled = fillAll(cut);
+    expectWhole(filled, touching.size());
+    CHECK(pinched(filled.mesh) == 0);
+  }
+}
+
+TEST_CASE("fill: islands that touch each other, and the rim, close to one surface") {
+  const TestMesh sphere = sphereMesh(4);
+  Cutting cutting(sphere, isNear({0, 0, 1}, 0.7));
+  const uint32_t v = nearest(sphere, {0.05, 0.02, 1});
+  REQUIRE(cutting.addIsland(v, 1));
+  REQUIRE(cutting.addIsland(v, 0));
+  const TestMesh two = cutting.cut();
+  const Filled filled = fillAll(two);
+  expectWhole(filled, 1);
+  CHECK(pinched(filled.mesh) == 0);
+  CHECK(offSphere(filled, two.vertexCount()) < 8e-3);
+}
+
+TEST_CASE(
+    "fill: two holes that touch, taken for one, get one surface, or one each where it would "
+    "pinch") {
+  for (const double bend : {0.0, 0.2}) {
+    CAPTURE(bend);
+    const TestMesh cut = without(saddleMesh(16, bend), [](Vec3 p) {
+      return p.x * p.y > 0 && std::fabs(p.x) < 0.5 && std::fabs(p.y) < 0.5;
+    });
+    const Filled each = fillAll(cut);
+    REQUIRE(each.holes.size() == 2);
+    Work work;
+    Charge charge(work);
+    Adjacency adjacency;
+    Rims rims;
+    REQUIRE(buildAdjacency(cut.view(), work, charge, adjacency));
+    REQUIRE(findRims(cut.view(), adjacency, work, charge, rims));
+    std::vector<uint32_t> pair;
+    for (uint32_t r = 0; r < rims.count(); ++r)
+      if (rims.rims[r].length < 5) pair.push_back(r);
+    REQUIRE(pair.size() == 2);
+    const Filled both = fillAll(cut, {}, true, {pair});
+    REQUIRE(both.holes.size() == 1);
+    CHECK(both.holes[0].status == FillStatus::Filled);
+    CHECK((both.mesh.faces == each.mesh.faces) == (bend == 0));
+    CHECK(openOrTwisted(both.mesh) == 64);
+    CHECK(pinched(both.mesh) == pinched(each.mesh));
   }
 }

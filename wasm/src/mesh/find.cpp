@@ -196,7 +196,7 @@ bool RimFinder::trace() {
   places_.assign(edges_.size(), kNone);
   rims_.starts.push_back(0);
   if (!charge_.add(edges_.size() * (2 * sizeof(uint32_t) + sizeof(Vec3))) ||
-      !temporary_.add(edges_.size() * (1 + 2 * sizeof(Step) + sizeof(uint32_t))))
+      !temporary_.add(edges_.size() * (1 + 2 * sizeof(Step) + 2 * sizeof(uint32_t))))
     return false;
   rims_.vertices.reserve(edges_.size());
   rims_.halves.reserve(edges_.size());
