@@ -202,11 +202,13 @@
   X(SfDefectCounts, defects, "[d] what is wrong with the mesh, a kind at most once")      \
   X(uint32_t, defectPlaces, "for each defect its faces, its edges as pairs, its vertices")
 
-#define SF_LOOP_FACTS_RECORD(X)                              \
-  X(double, length, "of the loop")                           \
-  X(double, diameter, "the largest distance in it")          \
-  X(double, openness, "share of its length, facing nothing") \
-  X(double, component, "number of the component of the faces along it")
+#define SF_LOOP_FACTS_RECORD(X)                                         \
+  X(double, length, "of the loop")                                      \
+  X(double, diameter, "the largest distance in it")                     \
+  X(double, openness, "share of its length, facing nothing")            \
+  X(double, component, "number of the component of the faces along it") \
+  X(double, isSeam,                                                     \
+    "1 if most of it runs along edges of loops at the same places, with other vertices")
 
 #define SF_GROUP_KIND_CHOICES(X) \
   X(Alone, 0, "alone")           \

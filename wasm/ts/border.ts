@@ -441,10 +441,12 @@ export interface LoopFacts {
   readonly openness: number;
   /** number of the component of the faces along it */
   readonly component: number;
+  /** 1 if most of it runs along edges of loops at the same places, with other vertices */
+  readonly isSeam: number;
 }
 
 /** How many numbers of an array make one. */
-export const kLoopFactsLength = 4;
+export const kLoopFactsLength = 5;
 
 /** The one that begins at index `at`. */
 export const readLoopFacts = (from: ArrayLike<number>, at = 0): LoopFacts => ({
@@ -452,6 +454,7 @@ export const readLoopFacts = (from: ArrayLike<number>, at = 0): LoopFacts => ({
   diameter: from[at + 1],
   openness: from[at + 2],
   component: from[at + 3],
+  isSeam: from[at + 4],
 });
 
 export const kGroupKindChoices = ['alone', 'island', 'band'] as const;

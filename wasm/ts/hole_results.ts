@@ -40,7 +40,7 @@ export function reportOf({ arrays, vertexMap }: Pick<FoundHoles, 'arrays' | 'ver
   const { loopStarts, loopVertices, loopFacts, groupStarts, groupLoops, groupFacts, ...rest } = arrays;
   const loops = Array.from({ length: loopStarts.length - 1 }, (_, i): HoleLoop => ({
     vertices: loopVertices.slice(loopStarts[i], loopStarts[i + 1]),
-    ...readLoopFacts(loopFacts, kLoopFactsLength * i),
+    ...readLoop(loopFacts, kLoopFactsLength * i),
   }));
   const groups = Array.from({ length: groupStarts.length - 1 }, (_, g): HoleGroup => {
     const { kind, score, isOpenRim } = readGroupFacts(groupFacts, kGroupFactsLength * g);
@@ -52,6 +52,11 @@ export function reportOf({ arrays, vertexMap }: Pick<FoundHoles, 'arrays' | 'ver
     };
   });
   return { loops, groups, defects: readDefects(rest.defects, rest.defectPlaces), ...(vertexMap && { vertexMap }) };
+}
+
+function readLoop(facts: Float64Array, at: number): Omit<HoleLoop, 'vertices'> {
+  const { isSeam, ...rest } = readLoopFacts(facts, at);
+  return { ...rest, isSeam: isSeam === 1 };
 }
 
 function readDefects(counts: Uint32Array, places: Uint32Array): MeshDefect[] {

@@ -435,6 +435,11 @@ export interface HoleLoop {
   readonly openness: number;
   /** The number of the connected part of the mesh that it is of. */
   readonly component: number;
+  /**
+   * Whether more than half of it runs along edges of loops, this one included, that are at the same places and have
+   * vertices of their own: `weld` would join them. Such a loop is no hole, and mostly part of an open rim.
+   */
+  readonly isSeam: boolean;
 }
 
 /** Loops that bound one hole. */

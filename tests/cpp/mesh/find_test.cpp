@@ -42,7 +42,14 @@ std::string faultOf(const TestMesh& mesh, const Found& found) {
   const Adjacency& a = found.adjacency;
   if (r.starts.size() != r.count() + 1 || r.starts.back() != r.vertices.size()) return "starts";
   if (r.halves.size() != r.vertices.size() || r.normals.size() != r.vertices.size()) return "sizes";
-  std::set<uint32_t> used;
+  std::set<uint32_t> used, touched;
+  for (const RimTouch& t : r.touches) {
+    const uint32_t rim = r.rimOf(t.before);
+    if (r.vertices[r.nextEdge(rim, t.before)] != r.vertices[t.after]) return "a touch";
+    if (rim == r.rimOf(t.after)) return "a touch of one rim";
+    if (!touched.insert(t.after).second) return "an edge after two touches";
+    if (&t != r.touches.data() && (&t)[-1].before >= t.before) return "the order of touches";
+  }
   uint32_t slits = 0;
   for (uint32_t i = 0; i < r.count(); ++i) {
     const Loop loop = loopOf(r, i);
@@ -121,7 +128,7 @@ TEST_CASE("findRims: lengths and diameters of a tube's ends, at any scale") {
     for (const Rim& rim : found.rims.rims) {
       CHECK(rim.length / scale == doctest::Approx(128 * std::sin(kPi / 64)));
       CHECK(rim.diameter / scale == doctest::Approx(2));
-      CHECK(rim.cutEdges == 0);
+      CHECK(!rim.isSeam);
     }
   }
 }
@@ -266,8 +273,20 @@ TEST_CASE("findRims: the sides of a cut are no rim, the rest of a fin's is") {
   const Found found = find(mesh);
   CHECK(faultOf(mesh, found) == "");
   REQUIRE(found.rims.count() == 2);
-  CHECK(found.rims.rims[0].cutEdges == 0);
-  CHECK(found.rims.rims[1].cutEdges == 1);
+  for (const Rim& rim : found.rims.rims) CHECK(!rim.isSeam);
+}
+
+TEST_CASE("findRims: rims that should have been welded are seams, and others not") {
+  const TestMesh tube = tubeMesh(12, 6, 3);
+  for (const Rim& rim : find(soup(tube)).rims.rims) CHECK(rim.isSeam);
+  // Two halves with vertices of their own meet; their other ends are open.
+  const auto isUpper = [](Vec3 p) { return p.z > 0; };
+  const auto isLower = [](Vec3 p) { return p.z <= 0; };
+  const TestMesh cut = together(compact(without(tube, isUpper)), compact(without(tube, isLower)));
+  const Found found = find(cut);
+  REQUIRE(found.rims.count() == 4);
+  for (uint32_t r = 0; r < 4; ++r)
+    CHECK(found.rims.rims[r].isSeam == (std::fabs(cut.at(loopOf(found.rims, r)[0]).z) < 1));
 }
 
 TEST_CASE("findRims: ends at its limits, and gives all memory back") {

@@ -36,7 +36,7 @@ std::string faultOf(const Grouped& g) {
   const Grouping& a = g.groups;
   const uint32_t k = g.rims.count(), n = a.count();
   if (a.starts.size() != n + 1 || a.rims.size() != k || a.scores.size() != n) return "sizes";
-  if (a.isOpenRim.size() != n || a.isSeam.size() != n || a.openness.size() != k) return "sizes";
+  if (a.isOpenRim.size() != n || a.openness.size() != k) return "sizes";
   std::set<uint32_t> rims(a.rims.begin(), a.rims.end());
   if (rims.size() != k) return "a rim in two groups";
   uint32_t last = 0;
@@ -66,10 +66,8 @@ std::string told(const TestMesh& mesh) {
     const char* kind = a.kinds[i] == GroupKind::Alone    ? "alone"
                        : a.kinds[i] == GroupKind::Island ? "island"
                                                          : "band";
-    words.insert(std::string(a.isSeam[i]      ? "seam"
-                             : a.isOpenRim[i] ? "open"
-                                              : kind) +
-                 " " + std::to_string(a.starts[i + 1] - a.starts[i]));
+    words.insert(std::string(a.isOpenRim[i] ? "open" : kind) + " " +
+                 std::to_string(a.starts[i + 1] - a.starts[i]));
   }
   std::string result;
   for (const std::string& word : words) result += (result.empty() ? "" : ", ") + word;
@@ -213,10 +211,10 @@ TEST_CASE("groupRims: a slit without area is a hole") {
   CHECK(told(mesh) == "alone 1");
 }
 
-TEST_CASE("groupRims: a fin is a seam, and so is a wall inside a body") {
+TEST_CASE("groupRims: a fin has an open rim, and so has a wall inside a body") {
   TestMesh fin = sphereMesh(3);
   fin.addFace(fin.faces[0], fin.faces[1], fin.addVertex(1.5 * fin.at(fin.faces[0])));
-  CHECK(told(fin) == "seam 1");
+  CHECK(told(fin) == "open 1");
   TestMesh box = boxMesh(4);
   std::vector<uint32_t> middle;  // of the square z = 0 on the sides
   const uint32_t n = box.vertexCount();
@@ -228,7 +226,7 @@ TEST_CASE("groupRims: a fin is a seam, and so is a wall inside a body") {
   const uint32_t centre = box.addVertex({0, 0, 0});
   for (size_t i = 0; i < middle.size(); ++i)
     box.addFace(centre, middle[i], middle[(i + 1) % middle.size()]);
-  CHECK(told(box) == "seam 1");
+  CHECK(told(box) == "open 1");
 }
 
 TEST_CASE("groupRims: a mesh that should have been welded has open rims only") {

@@ -49,7 +49,8 @@ SfResult* pack(const Found& found, sf::Grouping&& grouping) {
   std::vector<SfLoopFacts> loops;
   for (uint32_t i = 0; i < found.rims.count(); ++i) {
     const sf::Rim& rim = found.rims.rims[i];
-    loops.push_back({rim.length, rim.diameter, grouping.openness[i], double(rim.component)});
+    loops.push_back({rim.length, rim.diameter, grouping.openness[i], double(rim.component),
+                     double(rim.isSeam)});
   }
   std::vector<SfGroupFacts> groups;
   for (uint32_t g = 0; g < grouping.count(); ++g)

@@ -7,6 +7,7 @@
 
 #include "base/accurate_cross.h"
 #include "base/sort.h"
+#include "delaunay/insertion_order.h"
 
 namespace sf {
 namespace {
@@ -35,7 +36,7 @@ class RimFinder {
 
   bool run() {
     rims_ = {};
-    return collect() && joinThroughFans() && joinThroughGaps() && trace();
+    return collect() && joinThroughFans() && joinThroughGaps() && trace() && markSeams();
   }
 
  private:
@@ -54,6 +55,7 @@ class RimFinder {
   bool split(const std::vector<Step>& walk);
   bool noteTouches(const std::vector<Step>& walk);
   bool add(ArrayView<Step> walk);
+  bool markSeams();
   double diameterOf(ArrayView<const uint32_t> vertices);
   Vec3 normalOf(uint32_t h) const;
   Vec3 areaNormal(uint32_t face) const;
@@ -79,6 +81,8 @@ class RimFinder {
   std::vector<End> mates_;        // [2 edges] the end that a rim goes on with
   std::vector<uint32_t> seenAt_;  // [n] place in a walk, while one is split
   std::vector<uint32_t> places_;  // [edges] in `rims_`, or kNone
+  std::vector<uint32_t> slits_;   // [edges] of slits: the other edge of each
+  std::vector<uint32_t> after_;   // [edges] of a walk: the next one
 };
 
 bool RimFinder::collect() {
@@ -193,10 +197,10 @@ double RimFinder::gapCost(End arriving, End leaving) const {
 bool RimFinder::trace() {
   std::vector<uint8_t> isDone(edges_.size(), 0);
   seenAt_.assign(a_.vertices, kNone);
-  places_.assign(edges_.size(), kNone);
+  for (auto* list : {&places_, &slits_, &after_}) list->assign(edges_.size(), kNone);
   rims_.starts.push_back(0);
   if (!charge_.add(edges_.size() * (2 * sizeof(uint32_t) + sizeof(Vec3))) ||
-      !temporary_.add(edges_.size() * (1 + 2 * sizeof(Step) + 2 * sizeof(uint32_t))))
+      !temporary_.add(edges_.size() * (1 + 2 * sizeof(Step) + 3 * sizeof(uint32_t))))
     return false;
   rims_.vertices.reserve(edges_.size());
   rims_.halves.reserve(edges_.size());
@@ -221,17 +225,18 @@ bool RimFinder::trace() {
   return true;
 }
 
-/// Where a walk that was parted went on from one rim to another. Slits in it are passed over.
+/// Where a walk that was parted went on from one rim to another. At a slit it goes on as behind it.
 bool RimFinder::noteTouches(const std::vector<Step>& walk) {
-  std::vector<uint32_t> edges;
-  for (const Step s : walk) {
+  for (const Step s : walk)
     if (s.isAgainst) return true;  // across a seam: parts of it may run either way
-    if (places_[s.edge] != kNone) edges.push_back(places_[s.edge]);
-  }
-  for (size_t i = 0; i < edges.size(); ++i) {
-    const uint32_t before = edges[i], after = edges[(i + 1) % edges.size()];
-    if (rims_.nextEdge(rims_.rimOf(before), before) == after) continue;
-    if (!push(rims_.touches, {before, after}, charge_)) return false;
+  for (size_t i = 0; i < walk.size(); ++i) after_[walk[i].edge] = walk[(i + 1) % walk.size()].edge;
+  for (const Step s : walk) {
+    const uint32_t before = places_[s.edge];
+    if (before == kNone) continue;
+    uint32_t next = after_[s.edge];
+    while (places_[next] == kNone) next = after_[slits_[next]];
+    if (rims_.nextEdge(rims_.rimOf(before), before) == places_[next]) continue;
+    if (!push(rims_.touches, {before, places_[next]}, charge_)) return false;
   }
   return true;
 }
@@ -258,14 +263,18 @@ bool RimFinder::split(const std::vector<Step>& walk) {
 }
 
 bool RimFinder::add(ArrayView<Step> walk) {
-  if (walk.size() < 3) return true;  // a slit
+  if (walk.size() < 3) {
+    SF_ASSERT(walk.size() == 2);  // a slit
+    slits_[walk[0].edge] = walk[1].edge, slits_[walk[1].edge] = walk[0].edge;
+    return true;
+  }
   // Parts of a walk across seams may run the wrong way.
   if (walk[0].isAgainst) {
     std::reverse(walk.begin(), walk.end());
     for (Step& s : walk) s.isAgainst = !s.isAgainst;
   }
   const uint32_t first = uint32_t(rims_.vertices.size());
-  Rim rim{0, 0, kNone, 0, false};
+  Rim rim{0, 0, kNone, false, false};
   for (const Step s : walk) {
     const uint32_t h = edges_[s.edge], v = vertexOf(2 * s.edge + End(s.isAgainst));
     const Vec3 normal = normalOf(h);
@@ -274,7 +283,6 @@ bool RimFinder::add(ArrayView<Step> walk) {
     rims_.halves.push_back(h);
     rims_.normals.push_back(s.isAgainst ? -normal : normal);
     rim.length += distance(at_(a_.head(h)), at_(a_.tail(h)));
-    rim.cutEdges += a_.isCut(h);
     rim.crossesSeam |= s.isAgainst != walk[0].isAgainst;
   }
   rim.length /= at_.factor;
@@ -283,6 +291,47 @@ bool RimFinder::add(ArrayView<Step> walk) {
   rim.diameter = diameterOf(all.slice(first, walk.size())) / at_.factor;
   return push(rims_.rims, rim, charge_) &&
          push(rims_.starts, uint32_t(rims_.vertices.size()), charge_);
+}
+
+/// Finds rims that welding would join to others, or to themselves.
+bool RimFinder::markSeams() {
+  struct Side {
+    uint32_t low, high, edge;  // places, as the first edge that begins there
+  };
+  const uint32_t count = uint32_t(rims_.vertices.size());
+  std::vector<Side> sides;
+  std::vector<Vec3> points;
+  std::vector<uint32_t> places;
+  if (!temporary_.add(count * (sizeof(Side) + sizeof(Vec3) + sizeof(uint32_t) + sizeof(double))) ||
+      !work_.tick(uint32_t(std::min<size_t>(count * size_t(100), 1u << 30))))
+    return false;
+  for (const uint32_t v : rims_.vertices) points.push_back(at_(v));
+  if (!findEqualPoints(points, work_, places)) return false;
+  const auto headOf = [&](uint32_t e) { return rims_.nextEdge(rims_.rimOf(e), e); };
+  for (uint32_t e = 0; e < count; ++e) {
+    const uint32_t p = places[e], q = places[headOf(e)];
+    if (p != q) sides.push_back({std::min(p, q), std::max(p, q), e});
+  }
+  const auto isSamePlace = [](const Side& p, const Side& q) {
+    return p.low == q.low && p.high == q.high;
+  };
+  sf::sort(sides.begin(), sides.end(), [&](const Side& p, const Side& q) {
+    return p.low != q.low ? p.low < q.low : p.high != q.high ? p.high < q.high : p.edge < q.edge;
+  });
+  const auto verticesOf = [&](const Side& s) {
+    return std::minmax(rims_.vertices[s.edge], rims_.vertices[headOf(s.edge)]);
+  };
+  std::vector<double> lengths(rims_.count());
+  for (size_t i = 0, j; i < sides.size(); i = j) {
+    bool isSeam = false;
+    for (j = i; j < sides.size() && isSamePlace(sides[i], sides[j]); ++j)
+      isSeam |= verticesOf(sides[j]) != verticesOf(sides[i]);
+    for (size_t k = i; k < j && isSeam; ++k)
+      lengths[rims_.rimOf(sides[k].edge)] += distance(points[sides[i].low], points[sides[i].high]);
+  }
+  for (uint32_t r = 0; r < rims_.count(); ++r)
+    rims_.rims[r].isSeam = 2 * lengths[r] > rims_.rims[r].length * at_.factor;
+  return true;
 }
 
 /// The largest distance between two of the vertices; of many, between two that are extreme in some

@@ -17,8 +17,9 @@ namespace sf {
 struct Rim {
   double length, diameter;  // the diameter of more than 1000 vertices is a little too small
   uint32_t component;       // of the face at its first edge; others can meet it at vertices
-  uint32_t cutEdges;        // edges of it that the mesh has other faces at (Adjacency::cut)
   bool crossesSeam;         // of a component that is not orientable: filled, it still is not
+  bool
+      isSeam;  // more than half of it runs along edges of rims at the same places, with other vertices
 };
 
 /// Where a rim goes on to another one, at a vertex that both pass: the edges of rims before it and after it.

@@ -241,7 +241,7 @@ bool Grouper::group() {
     return a.root != b.root ? a.root < b.root : a.rim < b.rim;
   });
   g_.starts.assign(1, 0);
-  g_.rims.clear(), g_.kinds.clear(), g_.scores.clear(), g_.isOpenRim.clear(), g_.isSeam.clear();
+  g_.rims.clear(), g_.kinds.clear(), g_.scores.clear(), g_.isOpenRim.clear();
   for (size_t i = 0, j; i < members.size(); i = j) {
     for (j = i; j < members.size() && members[j].root == members[i].root; ++j)
       g_.rims.push_back(members[j].rim);
@@ -272,7 +272,7 @@ double Grouper::turningOf(uint32_t rim) const {
 void Grouper::finish(uint32_t first, uint32_t root) {
   const auto begin = g_.rims.begin() + first;
   double whole = 0, open = 0;
-  bool hasIsland = false, isSeam = true, crossesSeam = false;
+  bool hasIsland = false, crossesSeam = false;
   size_t outer = first;
   for (size_t i = first; i < g_.rims.size(); ++i) {
     const uint32_t r = g_.rims[i];
@@ -283,7 +283,6 @@ void Grouper::finish(uint32_t first, uint32_t root) {
     const bool isLonger = rim.length > rims_.rims[best].length;
     if (isIsland(r) == isIsland(best) ? isLonger : isIsland(best)) outer = i;
     whole += rim.length, open += rim.length * g_.openness[r];
-    isSeam &= rim.cutEdges > 0;
     crossesSeam |= rim.crossesSeam;
   }
   std::rotate(begin, g_.rims.begin() + ptrdiff_t(outer), g_.rims.begin() + ptrdiff_t(outer) + 1);
@@ -292,7 +291,6 @@ void Grouper::finish(uint32_t first, uint32_t root) {
   g_.kinds.push_back(isAlone ? GroupKind::Alone : hasIsland ? GroupKind::Island : GroupKind::Band);
   g_.scores.push_back(scores_[root]);
   g_.isOpenRim.push_back(isOpen);
-  g_.isSeam.push_back(isSeam && isOpen);
 }
 
 /// The only open group of a body that closing does not make a sheet is a hole.
@@ -301,7 +299,7 @@ bool Grouper::closeBodies() {
   if (!findBodies(mesh_, a_, rims_, g_, work_, temporary_, bodies)) return false;
   for (const Body& b : bodies) {
     if (b.openGroups != 1 || !b.isOrientable || !(b.roundness() > kRoundBody)) continue;
-    g_.isOpenRim[b.openGroup] = g_.isSeam[b.openGroup] = 0;
+    g_.isOpenRim[b.openGroup] = 0;
   }
   return true;
 }
@@ -312,7 +310,7 @@ bool groupRims(const MeshView& mesh, const Adjacency& adjacency, const Rims& rim
                Charge& charge, Grouping& result) {
   if (!castVotes(mesh, rims, work, charge, result)) return false;
   // starts, rims, kinds, scores, flags: no more groups than rims, now and later.
-  if (!charge.add(rims.count() * (2 * sizeof(uint32_t) + sizeof(double) + 3))) return false;
+  if (!charge.add(rims.count() * (2 * sizeof(uint32_t) + sizeof(double) + 2))) return false;
   Grouper grouper(mesh, adjacency, rims, work, result);
   return grouper.joinByVotes() && grouper.group();
 }

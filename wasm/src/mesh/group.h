@@ -34,9 +34,6 @@ struct Grouping {
   std::vector<GroupKind> kinds;    // [g]
   std::vector<double> scores;      // [g] the least vote that the group hangs by; 1 for a rim alone
   std::vector<uint8_t> isOpenRim;  // [g] meant to be open
-  /// [g] Open, and along edges that have other faces: where a sheet ends on others. Neither a hole nor
-  /// an open rim of the mesh.
-  std::vector<uint8_t> isSeam;
 
   uint32_t count() const { return uint32_t(kinds.size()); }
 };
