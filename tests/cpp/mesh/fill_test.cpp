@@ -259,6 +259,30 @@ TEST_CASE("fill: creases of a box go on, through an edge and through a corner") 
   }
 }
 
+TEST_CASE(
+    "fill: where the rim runs along creases, and through the corner where they meet, the box is as "
+    "it was") {
+  const auto nearCorner = isNear({1, 1, 1}, 0.45);
+  const auto nearEdge = isNear({1, 1, 0}, 0.45);
+  const std::vector<PlaceTest> holes = {
+      [&](Vec3 p) { return nearCorner(p) && p.z < 1 - 1e-9; },  // two sides
+      [&](Vec3 p) { return nearCorner(p) && p.x > 1 - 1e-9; },  // one side
+      [&](Vec3 p) { return nearEdge(p) && p.x > 1 - 1e-9; },    // to an edge
+  };
+  for (size_t i = 0; i < holes.size(); ++i) {
+    CAPTURE(i);
+    const TestMesh box = without(boxMesh(12), holes[i]);
+    const Filled filled = fillAll(box);
+    expectWhole(filled, 1);
+    CHECK(compact(filled.mesh).vertexCount() ==
+          compact(box).vertexCount() + filled.mesh.vertexCount() - box.vertexCount());
+    for (size_t f = box.faces.size(); f < filled.mesh.faces.size(); f += 3) {
+      const Vec3 p = filled.mesh.middle(uint32_t(f / 3));
+      CHECK(std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) == doctest::Approx(1));
+    }
+  }
+}
+
 TEST_CASE("fill: no refining, no fairing, and only so many vertices") {
   const TestMesh cut = without(sphereMesh(4), isNear({0, 0, 1}, 0.6));
   FillOptions options;

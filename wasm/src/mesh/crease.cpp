@@ -12,6 +12,9 @@ struct CreaseEnd {
   Vec3 direction;
 };
 
+/// How far a rim may be from a crease that it runs along, in mean lengths of its edges.
+constexpr double kOnCurve = 0.25;
+
 Vec3 unit(Vec3 v) {
   const double l = length(v);
   return l > 0 ? (1 / l) * v : v;
@@ -75,13 +78,22 @@ class Parting {
   /// The rim from one end to another, then the numbered points, in order.
   void addPart(const CreaseEnd& from, const CreaseEnd& to, const std::vector<uint32_t>& back) {
     std::vector<PartCorner> part;
-    const uint32_t length = (to.place + count_ - from.place) % count_;
-    for (uint32_t k = 0; k <= length; ++k) {
-      const uint32_t place = (from.place + k) % count_;
-      part.push_back({k < length ? first_ + place : kNone, vertexAt(place), kNone});
-    }
-    for (const uint32_t point : back) part.push_back({kNone, kNone, point});
+    appendRim(from.place, to.place, false, part);
+    part.push_back({kNone, vertexAt(to.place), kNone});
+    appendPoints(back, part);
     result_.parts.push_back(std::move(part));
+  }
+
+  /// The corners from one place of the rim to before another.
+  void appendRim(uint32_t from, uint32_t to, bool isCrease, std::vector<PartCorner>& part) const {
+    for (uint32_t k = 0; (from + k) % count_ != to; ++k) {
+      const uint32_t place = (from + k) % count_;
+      part.push_back({first_ + place, vertexAt(place), kNone, isCrease});
+    }
+  }
+
+  void appendPoints(const std::vector<uint32_t>& numbers, std::vector<PartCorner>& part) const {
+    for (const uint32_t point : numbers) part.push_back({kNone, kNone, point});
   }
 
   /// Points on the curve between two ends that leaves both as their creases do, from the first to the second.
@@ -120,17 +132,15 @@ class Parting {
   /// Joins two ends by a curve.
   void joinTwo() {
     const CreaseEnd &a = ends_[0], &b = ends_[1];
-    const Vec3 p = at(vertexAt(a.place)), q = at(vertexAt(b.place));
     const std::vector<uint32_t> there = join(a, b);
     // Where the rim itself runs along the crease, there is one part, on the other side of it.
     for (const bool isFirst : {true, false}) {
       const CreaseEnd &from = isFirst ? a : b, &to = isFirst ? b : a;
-      if (!runsAlong(from, to, p, q, there)) continue;
+      if (!runsAlong(from.place, to.place, there)) continue;
       result_.points.clear();
-      addPart(to, from, {});
-      std::vector<PartCorner>& part = result_.parts.back();
-      for (uint32_t k = 1; (from.place + k) % count_ != to.place; ++k)
-        part.push_back({kNone, vertexAt(from.place + k), kNone});
+      result_.parts.emplace_back();
+      appendRim(to.place, from.place, false, result_.parts.back());
+      appendRim(from.place, to.place, true, result_.parts.back());
       return;
     }
     std::vector<uint32_t> back(there.rbegin(), there.rend());
@@ -138,11 +148,14 @@ class Parting {
     addPart(b, a, there);
   }
 
-  /// Whether the rim from one end to another keeps to the curve between them.
-  bool runsAlong(const CreaseEnd& from, const CreaseEnd& to, Vec3 p, Vec3 q,
-                 const std::vector<uint32_t>& curve) const {
-    for (uint32_t k = 1; (from.place + k) % count_ != to.place; ++k) {
-      const Vec3 x = at(vertexAt(from.place + k));
+  /// Whether the rim from one place to another keeps to the curve between them, which may run either way.
+  bool runsAlong(uint32_t from, uint32_t to, const std::vector<uint32_t>& curve) const {
+    Vec3 p = at(vertexAt(from)), q = at(vertexAt(to));
+    if (!curve.empty() &&
+        distance(result_.points[curve[0]], q) < distance(result_.points[curve[0]], p))
+      std::swap(p, q);
+    for (uint32_t k = 1; (from + k) % count_ != to; ++k) {
+      const Vec3 x = at(vertexAt(from + k));
       double nearest = 1e300;
       Vec3 before = p;
       for (size_t i = 0; i <= curve.size(); ++i) {
@@ -153,7 +166,7 @@ class Parting {
         nearest = std::min(nearest, length(x - before - t * d));
         before = after;
       }
-      if (nearest > 0.25 * step_) return false;
+      if (nearest > kOnCurve * step_) return false;
     }
     return true;
   }
@@ -178,6 +191,7 @@ class Parting {
     if (!(whole > 1e-3)) return;
     const Vec3 corner =
         (1 / whole) * Vec3{dot(s, cross(b, c)), dot(a, cross(s, c)), dot(a, cross(b, s))};
+    if (joinAtRim(corner)) return;
     const uint32_t centre = uint32_t(result_.points.size());
     result_.points.push_back(corner);
     std::vector<uint32_t> arms[3];
@@ -192,6 +206,47 @@ class Parting {
       back.insert(back.end(), arms[i].rbegin(), arms[i].rend());
       addPart(ends_[i], ends_[k], back);
     }
+  }
+
+  /// Joins the ends at a vertex of the rim, if one is where their lines meet. Where the rim itself runs along a crease
+  /// to there, nothing is between the two.
+  bool joinAtRim(Vec3 corner) {
+    uint32_t x = 0;
+    for (uint32_t i = 1; i < count_; ++i)
+      if (distance(at(vertexAt(i)), corner) < distance(at(vertexAt(x)), corner)) x = i;
+    const Vec3 centre = at(vertexAt(x));
+    if (distance(centre, corner) > kOnCurve * step_) return false;
+    // In order around the rim, from there on.
+    std::vector<uint32_t> places;
+    for (const CreaseEnd& end : ends_)
+      if (end.place != x) places.push_back(end.place);
+    std::sort(places.begin(), places.end(), [&](uint32_t i, uint32_t k) {
+      return (i + count_ - x) % count_ < (k + count_ - x) % count_;
+    });
+    const size_t m = places.size();
+    const bool beginsAlong = runsAlong(x, places[0], {}),
+               endsAlong = runsAlong(places[m - 1], x, {});
+    // Each part from an end to the next one, the first and the last of them from and to the vertex itself.
+    std::vector<PartCorner> part;
+    appendRim(x, places[0], beginsAlong, part);
+    for (size_t i = 0; i < m; ++i) {
+      // Past an end up to which the rim runs along the crease, or after which it does, a part goes on.
+      const bool goesOn = i == 0 ? beginsAlong : i == m - 1 && endsAlong;
+      if (!goesOn) {
+        const Vec3 p = at(vertexAt(places[i]));
+        const std::vector<uint32_t> arm =
+            points(length(centre - p), [&](double t) { return p + t * (centre - p); });
+        part.push_back({kNone, vertexAt(places[i]), kNone});
+        appendPoints(arm, part);
+        result_.parts.push_back(std::move(part));
+        part = {{kNone, vertexAt(x), kNone}};
+        appendPoints({arm.rbegin(), arm.rend()}, part);
+      }
+      const bool isLast = i == m - 1;
+      appendRim(places[i], isLast ? x : places[i + 1], isLast && endsAlong, part);
+    }
+    result_.parts.push_back(std::move(part));
+    return true;
   }
 
   const MeshView& mesh_;

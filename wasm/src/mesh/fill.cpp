@@ -56,9 +56,13 @@ bool runsAlong(const LoopSet& loops, const std::vector<uint32_t>& triangles) {
 struct HoleFiller::Corner {
   uint32_t vertex;         // of the filled mesh
   uint32_t edge = kNone;   // the rim edge that begins there, or kNone
+  bool isCrease = false;   // the face at that edge is across a crease, and does not count
   uint32_t local = kNone;  // the vertex in `Hole::vertices`: of several corners, where rims touch
   uint32_t next = kNone, before = kNone;  // corners of the same loop
   uint32_t other = kNone;                 // the corner before this one at the same vertex
+
+  /// Whether the patch should go on the face at the edge.
+  bool goesOn() const { return edge != kNone && !isCrease; }
 };
 
 struct HoleFiller::Hole {
@@ -139,8 +143,7 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
   std::vector<double> normals;
   for (const Corner& corner : hole.corners) {
     positions.push_back(placeToSpan(hole, corner));
-    appendBoundaryNormal(corner.edge == kNone ? Vec3{0, 0, 0} : rims_.normals[corner.edge],
-                         normals);
+    appendBoundaryNormal(corner.goesOn() ? rims_.normals[corner.edge] : Vec3{0, 0, 0}, normals);
   }
   const std::vector<uint32_t>& starts = hole.starts;
   const LoopSet loops({positions.data(), positions.size()}, {starts.data(), starts.size()});
@@ -344,7 +347,7 @@ void HoleFiller::takeRings(Hole& hole, std::vector<uint32_t>& faces) {
 /// The faces beside the rim and some steps further, not across creases.
 void HoleFiller::takeSide(Hole& hole, double crease, std::vector<uint32_t>& faces) {
   for (const Corner& corner : hole.corners)
-    if (corner.edge != kNone) faces.push_back(rims_.halves[corner.edge] / 3);
+    if (corner.goesOn()) faces.push_back(rims_.halves[corner.edge] / 3);
   const Creases creases(mesh_, adjacency_, around_.fanStarts, around_.fans, crease);
   std::vector<uint32_t> known(faces);
   std::sort(known.begin(), known.end());
@@ -430,7 +433,7 @@ double HoleFiller::rimAngle(const Hole& hole, double* largest) const {
   for (size_t t = 3 * size_t(s.fixedTriangles); t < s.triangles.size(); t += 3)
     for (int k = 0; k < 3; ++k) {
       const uint32_t corner = hole.cornerBetween(s.triangles[t + k], s.triangles[t + (k + 1) % 3]);
-      if (corner == kNone || hole.corners[corner].edge == kNone) continue;
+      if (corner == kNone || !hole.corners[corner].goesOn()) continue;
       const Vec3 n = rims_.normals[hole.corners[corner].edge];
       if (dot(n, n) == 0) continue;
       const double angle = angleBetween(
@@ -582,7 +585,8 @@ Status HoleFiller::fillParts(const HoleParts& parts, const FillOptions& options,
     Hole hole;
     hole.isPart = parts.areBetweenCreases;
     for (const PartCorner& c : part)
-      hole.corners.push_back({c.vertex != kNone ? c.vertex : firstPoint + c.added, c.edge});
+      hole.corners.push_back(
+          {c.vertex != kNone ? c.vertex : firstPoint + c.added, c.edge, c.isCrease});
     hole.starts = {0, uint32_t(hole.corners.size())};
     if (isBorderTaken(hole)) {
       isGood = false;

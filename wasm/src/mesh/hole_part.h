@@ -13,6 +13,8 @@ struct PartCorner {
   uint32_t edge = kNone;    // the rim edge that begins there; kNone where another part goes on
   uint32_t vertex = kNone;  // of the input; kNone: `added`
   uint32_t added = kNone;   // in the list of points that are added
+  bool isCrease =
+      false;  // the rim edge runs along a crease: the face there says nothing of the part
 };
 
 struct HoleParts {
