@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
+#include "base/union_find.h"
 #include "support/meshes.h"
 
 using namespace sf;
@@ -71,6 +73,59 @@ std::string told(const TestMesh& mesh) {
   }
   std::string result;
   for (const std::string& word : words) result += (result.empty() ? "" : ", ") + word;
+  return result;
+}
+
+/// Groups as sets of rims, which are sets of vertices.
+using VertexGroups = std::set<std::set<std::set<uint32_t>>>;
+
+std::set<uint32_t> verticesOf(const Rims& rims, uint32_t rim) {
+  return {rims.vertices.begin() + rims.starts[rim], rims.vertices.begin() + rims.starts[rim + 1]};
+}
+
+VertexGroups groupsAsVertices(const Grouped& g) {
+  VertexGroups result;
+  for (uint32_t i = 0; i < g.groups.count(); ++i) {
+    std::set<std::set<uint32_t>> group;
+    for (uint32_t k = g.groups.starts[i]; k < g.groups.starts[i + 1]; ++k)
+      group.insert(verticesOf(g.rims, g.groups.rims[k]));
+    result.insert(group);
+  }
+  return result;
+}
+
+TestMesh withoutMarked(const TestMesh& whole, const std::vector<uint8_t>& isGone) {
+  TestMesh cut = whole;
+  cut.faces.clear();
+  for (uint32_t f = 0; f < whole.faceCount(); ++f)
+    if (!isGone[f]) cut.addFace(whole.faces[3 * f], whole.faces[3 * f + 1], whole.faces[3 * f + 2]);
+  return cut;
+}
+
+/// The truth about a closed mesh that is cut: rims of one connected part that is gone belong together. None if rims
+/// touch.
+VertexGroups groupsByParts(const TestMesh& whole, const std::vector<uint8_t>& isGone) {
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> faceAt;
+  for (uint32_t h = 0; h < whole.faces.size(); ++h)
+    faceAt[{whole.faces[h], whole.faces[h % 3 == 2 ? h - 2 : h + 1]}] = h / 3;
+  UnionFind parts(whole.faceCount());
+  for (const auto& [edge, f] : faceAt) {
+    const uint32_t g = faceAt.at({edge.second, edge.first});
+    if (isGone[f] && isGone[g]) parts.unite(f, g);
+  }
+  const Grouped cut = groupsOf(withoutMarked(whole, isGone));
+  std::map<uint32_t, std::set<std::set<uint32_t>>> byPart;
+  std::set<uint32_t> seen;
+  const Rims& rims = cut.rims;
+  for (uint32_t r = 0; r < rims.count(); ++r) {
+    for (const uint32_t v : verticesOf(rims, r))
+      if (!seen.insert(v).second) return {};
+    const uint32_t e = rims.starts[r];
+    const uint32_t f = faceAt.at({rims.vertices[e], rims.vertices[rims.nextEdge(r, e)]});
+    byPart[parts.rootOf(f)].insert(verticesOf(rims, r));
+  }
+  VertexGroups result;
+  for (const auto& [part, group] : byPart) result.insert(group);
   return result;
 }
 
@@ -268,6 +323,44 @@ TEST_CASE("groupRims: noise of a quarter of an edge does not matter") {
     CHECK(told(noisy(sphereBelow(-0.1), 0.02, random)) == "alone 1");
     CHECK(told(noisy(saddleMesh(20, 0.3), 0.02, random)) == "open 1");
   }
+}
+
+TEST_CASE("groupRims: random cuts, where the parts cut away say what belongs together") {
+  MESSAGE("seed 53");
+  Random random(53);
+  const TestMesh sphere = sphereMesh(3);
+  uint32_t groups = 0, right = 0;
+  while (groups < 300) {
+    // A sphere, two that nearly touch, one in the other, or one as flat as a coin.
+    const uint32_t kind = random.below(4);
+    const double a = random.range(0.02, 0.3);
+    const auto other = [=](Vec3 p) {
+      return kind == 1 ? Vec3{p.x + 2 + a, p.y, p.z} : (1 - a) * p;
+    };
+    TestMesh whole = sphere;
+    if (kind == 1) whole = together(sphere, mapped(sphere, other));
+    if (kind == 2) whole = together(sphere, turnedOver(mapped(sphere, other)));
+    if (kind == 3) whole = mapped(sphere, [=](Vec3 p) { return Vec3{p.x, p.y, 2 * a * p.z}; });
+    std::vector<uint8_t> isGone(whole.faceCount());
+    for (uint32_t cuts = 1 + random.below(4); cuts > 0; --cuts) {
+      const Vec3 at = kind == 1 && random.chance(0.7)
+                          ? Vec3{1, random.range(-0.3, 0.3), random.range(-0.3, 0.3)}
+                          : whole.middle(random.below(whole.faceCount()));
+      const double radius = random.range(0.2, 0.7);
+      const double inner = random.chance(0.5) ? random.range(0.2, 0.7) * radius : 0;
+      for (uint32_t f = 0; f < whole.faceCount(); ++f) {
+        const double from = distance(whole.middle(f), at);
+        if (from < radius) isGone[f] = from >= inner;
+      }
+    }
+    const auto truth = groupsByParts(whole, isGone);
+    if (truth.empty()) continue;
+    const auto found = groupsAsVertices(groupsOf(withoutMarked(whole, isGone)));
+    groups += uint32_t(truth.size());
+    for (const auto& group : truth) right += uint32_t(found.count(group));
+  }
+  // By votes alone six are wrong.
+  CHECK(right + 2 >= groups);
 }
 
 TEST_CASE("groupRims: any faces at all") {
