@@ -90,8 +90,10 @@ export function* fillSteps(place: MeshPlace, given: OpenHoles, options: FillOpti
       ({ split } = again);
       break;
     }
-    // Without those that cannot be filled all the same: their faces stay whole.
-    const all = splits;
+    // Without those that cannot be filled all the same: their faces stay whole, and they say what was wrong last.
+    const [first, second, all] = [patches, again.patches.holes, splits];
+    const isLeft = (g: number): boolean => all.has(g) && !again.done.includes(g);
+    patches = { ...first, holes: first.holes.map((hole, g) => (isLeft(g) ? { ...hole, reason: second[g].reason ?? hole.reason } : hole)) };
     splits = new Map(again.done.map((g) => [g, all.get(g) ?? []]));
   }
   const close = closePatches(split.mesh, patches);
