@@ -91,9 +91,12 @@ export function* fillSteps(place: MeshPlace, given: OpenHoles, options: FillOpti
       break;
     }
     // Without those that cannot be filled all the same: their faces stay whole, and they say what was wrong last.
-    const [first, second, all] = [patches, again.patches.holes, splits];
-    const isLeft = (g: number): boolean => all.has(g) && !again.done.includes(g);
-    patches = { ...first, holes: first.holes.map((hole, g) => (isLeft(g) ? { ...hole, reason: second[g].reason ?? hole.reason } : hole)) };
+    const all = splits;
+    const holes = patches.holes.map((hole, g) => {
+      const { reason } = again.patches.holes[g];
+      return reason !== undefined && all.has(g) && !again.done.includes(g) ? { ...hole, reason } : hole;
+    });
+    patches = { ...patches, holes };
     splits = new Map(again.done.map((g) => [g, all.get(g) ?? []]));
   }
   const close = closePatches(split.mesh, patches);
