@@ -311,7 +311,8 @@
   X(double, movedLess, "share of the fairing that was taken back")                \
   X(double, firstFace, "its first face in the filled mesh")                       \
   X(double, endFace, "the one after its last")                                    \
-  X(double, pairs, "how many pairs of faces intersect")
+  X(double, pairs, "how many pairs of faces intersect")                           \
+  X(double, splits, "how many vertices are to be put on its rims")
 
 /* sf_smooth_surface */
 

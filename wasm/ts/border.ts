@@ -636,10 +636,12 @@ export interface FilledFacts {
   readonly endFace: number;
   /** how many pairs of faces intersect */
   readonly pairs: number;
+  /** how many vertices are to be put on its rims */
+  readonly splits: number;
 }
 
 /** How many numbers of an array make one. */
-export const kFilledFactsLength = 12;
+export const kFilledFactsLength = 13;
 
 /** The one that begins at index `at`. */
 export const readFilledFacts = (from: ArrayLike<number>, at = 0): FilledFacts => ({
@@ -655,6 +657,7 @@ export const readFilledFacts = (from: ArrayLike<number>, at = 0): FilledFacts =>
   firstFace: from[at + 9],
   endFace: from[at + 10],
   pairs: from[at + 11],
+  splits: from[at + 12],
 });
 
 export const kSurfaceKindChoices = ['soap-film', 'thin-plate', 'curvature'] as const;

@@ -127,6 +127,7 @@ SfFilledFacts factsOf(const sf::FilledHole& hole) {
   facts.firstFace = hole.firstFace;
   facts.endFace = hole.endFace;
   facts.pairs = double(hole.intersections.size());
+  facts.splits = double(hole.splits.size());
   return facts;
 }
 

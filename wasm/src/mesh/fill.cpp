@@ -176,7 +176,8 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
     }
     if (found.found && found.inserted.empty()) break;
     reason = found.found ? FillReason::InsertedVertices : FillReason::NoSurface;
-    if (found.found) result.splits = splitsOf(hole, found);
+    if (found.found && found.inserted.size() <= options.maxNewVertices)
+      result.splits = splitsOf(hole, found);
     found.found = false;
   }
   if (!found.found) {

@@ -66,7 +66,7 @@ struct FilledHole {
   std::vector<FacePair> intersections;
   uint32_t firstFace = 0, endFace = 0;  // in the filled mesh
   /// With InsertedVertices: where the rims have to be split for the hole to be filled. None where the rims have edges
-  /// with other faces, which the splits would come apart from.
+  /// with other faces, which the splits would come apart from, or where there are more than `maxNewVertices`.
   std::vector<RimSplit> splits;
 };
 
