@@ -218,7 +218,7 @@ describe('findHoles', () => {
   test('loops: run along open edges the way faces that fill them do', () => {
     const open = new Set(openEdges(kTwoCaps.faces));
     const { loops } = findHoles(kTwoCaps);
-    for (const { vertices, length, diameter, openness, component } of loops) {
+    for (const { vertices, length, diameter, openness, component, isSeam } of loops) {
       for (let i = 0; i < vertices.length; i++) {
         const [a, b] = [vertices[i], vertices[(i + 1) % vertices.length]];
         expect(open.delete(`${b} ${a}`)).toBe(true);
@@ -226,6 +226,7 @@ describe('findHoles', () => {
       expect(length).toBeGreaterThan(2 * diameter);
       expect(openness).toBeLessThan(0.3);
       expect(component).toBe(0);
+      expect(isSeam).toBe(false);
     }
     expect(open.size).toBe(0);
   });
@@ -401,9 +402,10 @@ describe('weld', () => {
     expect(await film.fillHoles(soup, { weld })).toEqual(result);
   });
 
-  test('not asked for: as many loops as faces, and no map', () => {
+  test('not asked for: as many loops as faces, all of them seams, and no map', () => {
     const report = findHoles(soup);
     expect(report.loops.length).toBe(soup.faces.length / 3);
+    expect(report.loops.every(({ isSeam }) => isSeam)).toBe(true);
     expect(report.vertexMap).toBeUndefined();
   });
 });

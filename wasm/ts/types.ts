@@ -524,7 +524,7 @@ export type SessionFillOptions = Omit<FillOptions, 'weld'>;
  * It failed:
  * - `'no-surface'`: the candidates hold no surface that its rims bound.
  * - `'rims-intersect'`: its rims cross or touch each other or themselves.
- * - `'repeated-vertex'`: two vertices of its rims are in one place.
+ * - `'repeated-vertex'`: two vertices of its rims are in one place; or rims share a vertex, and no surface goes on there.
  * - `'duplicate-face'`: the patch would have a face or an edge that the mesh has already.
  * - `'too-large'`: it needs more than `maxMemoryBytes`.
  * - `'inserted-vertices'`: only a surface with further vertices on its rims was found, and none that those could be
