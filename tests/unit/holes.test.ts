@@ -402,10 +402,11 @@ describe('weld', () => {
     expect(await film.fillHoles(soup, { weld })).toEqual(result);
   });
 
-  test('not asked for: as many loops as faces, all of them seams, and no map', () => {
+  test('not asked for: as many loops as faces, seams but for some at the holes, and no map', () => {
     const report = findHoles(soup);
     expect(report.loops.length).toBe(soup.faces.length / 3);
-    expect(report.loops.every(({ isSeam }) => isSeam)).toBe(true);
+    const others = report.loops.filter(({ isSeam }) => !isSeam).length;
+    expect(others).toBeLessThan(openEdges(kTwoCaps.faces).length / 2 + 1);
     expect(report.vertexMap).toBeUndefined();
   });
 });

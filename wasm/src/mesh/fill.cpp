@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/joint_cost.h"
 #include "mesh/smooth_patch.h"
 #include "mesh/stitch.h"
 #include "mesh/touch.h"
@@ -40,14 +41,6 @@ bool endsWork(Status status) { return status == Status::OutOfMemory || status ==
 Vec3 normalOf(ArrayView<const double> positions, uint32_t a, uint32_t b, uint32_t c) {
   const Vec3 p = pointAt(positions, a);
   return cross(pointAt(positions, b) - p, pointAt(positions, c) - p);
-}
-
-/// Whether a surface that is wound along the first loop is wound along all of them.
-bool runsAlong(const LoopSet& loops, const std::vector<uint32_t>& triangles) {
-  size_t along = 0;
-  for (size_t t = 0; t < triangles.size(); t += 3)
-    for (int k = 0; k < 3; ++k) along += loops.next(triangles[t + k]) == triangles[t + (k + 1) % 3];
-  return along == loops.vertexCount();
 }
 
 }  // namespace
@@ -204,7 +197,7 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
     result.reason = FillReason::DuplicateFace;
     return Status::Ok;
   }
-  if (!hole.crossesSeam && !runsAlong(loops, triangles)) {
+  if (!hole.crossesSeam && edgesAlong(loops, triangles) != loops.vertexCount()) {
     result.reason = FillReason::OpposedRims;
     return Status::Ok;
   }

@@ -45,6 +45,10 @@ class Grouper {
   bool joinIslands();
   bool isIsland(uint32_t rim) const { return turnings_[rim] < -kPi; }
   bool decideDoubts();
+  /// Whether votes join two rims, or both face something.
+  bool mayJoin(const RimVote& v) const {
+    return v.isJoined || std::max(g_.openness[v.first], g_.openness[v.second]) <= kOpenFrom;
+  }
   void sortByVote(std::vector<uint32_t>& votes) const;
   void join();
   void finish(uint32_t first, uint32_t root);
@@ -189,7 +193,7 @@ bool Grouper::decideDoubts() {
     const RimVote& v = g_.votes[i];
     if (v.vote > kDoubtTo)
       joined_.unite(v.first, v.second);
-    else if (v.vote >= kDoubtFrom && !push(doubts, i, temporary_))
+    else if (v.vote >= kDoubtFrom && mayJoin(v) && !push(doubts, i, temporary_))
       return false;
   }
   sortByVote(doubts);

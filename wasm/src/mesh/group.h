@@ -45,7 +45,8 @@ constexpr double kOpenFrom = 0.5;         // an open rim has more openness
 constexpr double kDoubtFrom = 0.15, kDoubtTo = 0.8;  // votes that the cost decides on
 
 /// Groups rims by their votes. Pairs with votes from kDoubtFrom to kDoubtTo that stronger ones do not join are
-/// joined if they cost less together than apart; by their votes, where that is Unknown (JointCost).
+/// joined if they cost less together than apart; by their votes, where that is Unknown (JointCost). Rims that face
+/// nothing are joined by votes alone.
 /// A group is open if more than kOpenFrom of its rims' length faces nothing. But the only open group of a
 /// body, whose closing leaves it a body and no sheet, is a hole: of a bowl, or half a sphere.
 /// About O(m + r log r) time for r edges of rims, and what JointCost takes for doubts. Memory of the result is charged to `charge`.

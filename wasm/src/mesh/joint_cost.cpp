@@ -40,6 +40,13 @@ struct PartOfWork {
 
 }  // namespace
 
+uint32_t edgesAlong(const LoopSet& loops, ArrayView<const uint32_t> triangles) {
+  uint32_t along = 0;
+  for (size_t t = 0; t < triangles.size(); t += 3)
+    for (int k = 0; k < 3; ++k) along += loops.next(triangles[t + k]) == triangles[t + (k + 1) % 3];
+  return along;
+}
+
 JointCost::JointCost(const MeshView& mesh, const Rims& rims, Work& work)
     : mesh_(mesh), rims_(rims), work_(work), alone_(rims.count(), std::nan("")) {}
 
@@ -62,12 +69,15 @@ bool JointCost::costOf(const std::vector<uint32_t>& rims, double& cost) {
   const bool isShort = work_.left() < kMostBytes;
   PartOfWork part(work_, std::min(kMostUnits, kMostUnitsOfAll - spent_));
   Span span;
-  const Outcome outcome = spanLoops(LoopSet(positions, starts), options, part.own, span);
+  const LoopSet loops(positions, starts);
+  const Outcome outcome = spanLoops(loops, options, part.own, span);
   spent_ += part.own.spent();
   if (isShort && outcome.status == Status::OutOfMemory) work_.fail(Status::OutOfMemory);
   if (!part.count()) return false;
   // With vertices put on the rims the costs could not be compared.
-  if (outcome.ok() && span.found && span.inserted.empty()) cost = span.cost;
+  if (!outcome.ok() || !span.found || !span.inserted.empty()) return true;
+  const uint32_t along = edgesAlong(loops, span.triangles);
+  if (along == 0 || along == loops.vertexCount()) cost = span.cost;
   return true;
 }
 

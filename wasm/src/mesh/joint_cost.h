@@ -7,9 +7,13 @@
 #include <vector>
 
 #include "base/work.h"
+#include "loops/problem/loop_set.h"
 #include "mesh/find.h"
 
 namespace sf {
+
+/// How many edges of loops the triangles of a surface over them run as the loops do. All or none, if they are wound alike.
+uint32_t edgesAlong(const LoopSet& loops, ArrayView<const uint32_t> triangles);
 
 enum class Verdict : uint8_t { Together, Apart, Unknown };
 
@@ -24,7 +28,7 @@ class JointCost {
   JointCost(const MeshView& mesh, const Rims& rims, Work& work);
 
   /// Compares surfaces of least angles among Delaunay triangles, those with the faces along the rims included.
-  /// Unknown where one of the three has none, or takes more than there is of vertices, units or memory: that
+  /// Unknown where one of the three has none that rims wound alike bound, or takes more than there is of vertices, units or memory: that
   /// depends on the rims and on what was asked before, never on time. False once the work has to end.
   bool compare(uint32_t first, uint32_t second, Verdict& verdict);
 
