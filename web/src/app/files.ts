@@ -1,7 +1,7 @@
 // Files in and out: opened by what is in them, or named with what can open them; saved as downloads.
 import type { Item } from '../state/document.ts';
 import { complain, say, settle } from '../state/notice.ts';
-import { choose, dispatch, ensureGroup, requestFrame } from '../state/store.ts';
+import { ensureGroup, openItems } from '../state/store.ts';
 import { Content } from './content.ts';
 import type { FileKind, Mode, ReadFile, Room } from './mode.ts';
 
@@ -109,14 +109,10 @@ function show(opened: readonly Extract<Outcome, { is: 'read' }>[], { mode, room 
   const [{ content, stem }] = opened;
   const name = content.name ?? stem;
   const more = opened.length - 1;
-  choose();
-  dispatch({
-    type: 'open',
-    group: ensureGroup(mode.id, room.settings).id,
+  openItems(ensureGroup(mode.id, room.settings), {
     name: more === 0 ? name : `${name} and ${more} more`,
     items: itemsOf(opened),
   });
-  requestFrame();
 }
 
 /** Says what has become of the files, in one remark. */

@@ -222,5 +222,6 @@ const whenAborted = (signal: AbortSignal): Promise<never> =>
 /** The failure of an error without a place. */
 export function plainFailure(error: unknown): Failure {
   const code = error instanceof SoapfilmError ? error.code : 'crashed';
-  return { code, message: error instanceof Error ? error.message : String(error), faults: [] };
+  const words = error instanceof Error ? error.message : String(error);
+  return { code, message: code === 'load-failed' ? `soapfilm could not be loaded: ${words}` : words, faults: [] };
 }

@@ -5,14 +5,14 @@ import { fileStem, save } from '../../app/files.ts';
 import { add, cross, normalize, scale, subtract } from '../../shapes/vec.ts';
 import { newItem } from '../../state/document.ts';
 import { complain } from '../../state/notice.ts';
-import { choose, dispatch, put, requestFrame } from '../../state/store.ts';
+import { beginWith, openItems, requestFrame, type Opening } from '../../state/store.ts';
 import { kExamples, type Example } from './examples.ts';
 import { isSettled, patches, withPatches } from './filling.ts';
 import type { Hole } from './grouping.ts';
 import { chosenHoles, fill, fillAll, found, holes, isAnyLeft, leave, whole } from './holes.ts';
 import { view } from './looks.ts';
 import { meshKind } from './mesh_kind.ts';
-import { kNoChoices, meshGroup, type MeshShape } from './settings.ts';
+import { meshGroup, type MeshShape } from './settings.ts';
 import { boxOfLoops, vertexAt } from './whole.ts';
 import { isFilled } from './wording.ts';
 
@@ -105,22 +105,14 @@ export function lookAt({ loops }: Hole): void {
   requestFrame(normalize(normal), false, { low: subtract(low, more), high: add(high, more) });
 }
 
-export function openExample({ title, shape, view: direction }: Example): void {
-  choose();
-  dispatch({
-    type: 'open',
-    group: meshGroup.peek().id,
-    name: title,
-    items: [newItem(meshKind, shape())],
-    settings: { ...meshGroup.peek().settings, of: [], ...kNoChoices },
-  });
-  requestFrame(direction);
+const openingOf = ({ title, shape, view: direction }: Example): Opening => ({ name: title, items: [newItem(meshKind, shape())], view: direction });
+
+export function openExample(example: Example): void {
+  openItems(meshGroup.peek(), openingOf(example));
 }
 
 /** The first example, as what was there from the beginning. */
 export function beginWithExample(): void {
-  const { title, shape, view: direction } = kExamples[0];
-  put({ ...meshGroup.peek(), name: title, items: [newItem(meshKind, shape())] });
-  requestFrame(direction, true);
+  beginWith(meshGroup.peek(), openingOf(kExamples[0]));
 }
 

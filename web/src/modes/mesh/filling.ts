@@ -3,11 +3,12 @@
 import { computed, signal } from '@preact/signals';
 import type { FilledHole, FillOptions, FillResult, HoleReport } from 'soapfilm';
 import { add, subtract, type Box } from '../../shapes/vec.ts';
-import { createWork, plainFailure } from '../../state/work.ts';
+import { createWork } from '../../state/work.ts';
 import { found, holes, settings, wishFor } from './holes.ts';
 import type { Hole } from './grouping.ts';
 import { kMode, type MeshSettings, type Smoothness } from './settings.ts';
 import { boxOfLoops, type Whole } from './whole.ts';
+import { explain } from './wording.ts';
 
 /** What became of one hole. */
 export interface Patch {
@@ -93,7 +94,7 @@ export const filling = createWork<Job, ReadonlyMap<string, Patch>>({
     const others = [...kept.peek()].filter(([, patch]) => patch.of === of.of);
     kept.value = new Map([...others, ...made]);
   },
-  explain: plainFailure,
+  explain,
 });
 
 /** The holes whose patches are missing, and those so near to them that the patches may meet. */

@@ -2,12 +2,13 @@
 import { computed, signal } from '@preact/signals';
 import type { HoleReport } from 'soapfilm';
 import { isSame } from '../../state/document.ts';
-import { choose, dispatch, endGesture, hover, mode, selection } from '../../state/store.ts';
-import { createWork, plainFailure } from '../../state/work.ts';
+import { choose, dispatch, hover, mode, selection, setIn } from '../../state/store.ts';
+import { createWork } from '../../state/work.ts';
 import { holesOf, join, split, type Hole } from './grouping.ts';
 import { kMode, kNoChoices, meshGroup, type Choices, type MeshSettings } from './settings.ts';
 import { countTwins, weld } from './weld.ts';
 import { idsOf, loopAt, noteRims, placeOf, shapeOf, wholeOf, type Found, type Whole } from './whole.ts';
+import { explain } from './wording.ts';
 
 const items = computed(() => meshGroup.value.items);
 
@@ -29,7 +30,7 @@ export const finding = createWork<Whole, HoleReport>({
     if (report && of) noteRims(of, report);
     latest.value = report && of && { of, report };
   },
-  explain: plainFailure,
+  explain,
 });
 
 /** How many vertices of rims lie where another one does: seams rather than holes. */
@@ -99,8 +100,7 @@ export function hoverHole(hole: number | null): void {
 
 /** Changes settings; those of one `gesture` are one step until the change that is not `passing`. */
 export function set(change: Partial<MeshSettings>, gesture?: string, passing = false): void {
-  dispatch({ type: 'set', group: meshGroup.peek().id, settings: change }, gesture);
-  if (gesture !== undefined && !passing) endGesture();
+  setIn(meshGroup.peek(), change, gesture, passing);
 }
 
 function decide(change: Partial<Choices>, rest: Partial<MeshSettings> = {}): void {

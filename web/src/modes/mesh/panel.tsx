@@ -3,10 +3,10 @@ import { useState } from 'preact/hooks';
 import { computed, useComputed } from '@preact/signals';
 import { linear, NumberField, Section, Segments, Switch, type Choice } from '../../app/controls.tsx';
 import { countOf } from '../../app/files.ts';
+import { Examples, Flags, Show, Trouble } from '../../app/panel_parts.tsx';
 import { boundsOf } from '../../shapes/vec.ts';
 import { boxOfGroup } from '../../state/document.ts';
 import { shown } from '../../state/store.ts';
-import type { Work } from '../../state/work.ts';
 import { chosen, lookAt, openExample } from './actions.ts';
 import { kExamples } from './examples.ts';
 import { filling, isSettled, patches, patchOf } from './filling.ts';
@@ -34,9 +34,9 @@ import {
   whole,
   wishFor,
 } from './holes.ts';
-import { hueOf, view, type View } from './looks.ts';
+import { hueOf, view } from './looks.ts';
 import { kMaxDensity, meshGroup, type MeshSettings } from './settings.ts';
-import { isFilled, kindOfHole, reasonIn, wordsFor, wordsForDefect } from './wording.ts';
+import { isFilled, kindOfHole, reasonIn, wordsForDefect } from './wording.ts';
 import './mesh.css';
 
 /** More holes than this are listed only when asked for. */
@@ -48,7 +48,7 @@ const triangles = computed(() => patches.value.reduce((sum, { faces }) => sum + 
 
 export const summary = computed(() => {
   if (whole.value === null) return 'No mesh yet';
-  for (const { state } of [finding, filling]) if (state.value.phase === 'failed') return wordsFor(state.value);
+  for (const { state } of [finding, filling]) if (state.value.phase === 'failed') return state.value.message;
   if (found.value === null) return finding.state.value.phase === 'cancelled' ? 'Cancelled' : 'Looking for holes…';
   const all = holes.value.length;
   if (all === 0) return 'No holes: the mesh is closed';
@@ -62,8 +62,11 @@ export function MeshPanel() {
       <Result />
       <Holes />
       <Filling />
-      <Show />
-      <Examples />
+      <Show>
+        <Flags of={view} labels={{ rims: 'Rims', zebra: 'Zebra stripes', smooth: 'Smooth shading' }} />
+        <Flags of={shown} labels={{ wires: 'Edges', grid: 'Grid' }} />
+      </Show>
+      <Examples of={kExamples} open={openExample} />
     </>
   );
 }
@@ -74,7 +77,7 @@ function Result() {
     <Section title="Result">
       <p class="mesh-summary">{summary.value}</p>
       <Trouble work={finding} />
-      <Trouble work={filling} />
+      {!isSettled.value && <Trouble work={filling} again="Go on" />}
       {whole.value !== null && (
         <p class="muted">
           {countOf(whole.value.positions.length / 3, 'vertex', 'vertices')}, {countOf(whole.value.faces.length / 3, 'face')}
@@ -98,30 +101,6 @@ function Result() {
   );
 }
 
-/** What is wrong with work, or that it was ended, and how to try again. */
-function Trouble({ work }: { work: Work }) {
-  const state = work.state.value;
-  if (state.phase === 'failed') {
-    return (
-      <div class="message error">
-        <p>{wordsFor(state)}</p>
-        <button type="button" class="button small" onClick={work.start}>
-          Try again
-        </button>
-      </div>
-    );
-  }
-  if (state.phase !== 'cancelled' || (work === filling && isSettled.value)) return null;
-  return (
-    <div class="message">
-      <p>{work.verb} was cancelled.</p>
-      <button type="button" class="button small" onClick={work.start}>
-        Go on
-      </button>
-    </div>
-  );
-}
-
 function Holes() {
   const all = holes.value;
   const [isAll, setAll] = useState(false);
@@ -130,7 +109,7 @@ function Holes() {
   const hasOpenRims = all.some(({ isOpenRim }) => isOpenRim);
   return (
     <Section title="Holes" aside={<span class="count">{all.length}</span>}>
-      <div class="mesh-buttons">
+      <div class="pairs">
         <button type="button" class="button primary" disabled={!isAnyLeft.value} onClick={fillAll}>
           Fill all
         </button>
@@ -277,41 +256,6 @@ function Filling() {
         onChange={(value, passing) => { set({ density: value }, 'density', passing); }}
       />
       <Segments label="Triangles from" choices={kCandidates} value={candidates} onChange={(value) => { set({ candidates: value }); }} />
-    </Section>
-  );
-}
-
-const kShown: readonly (readonly [keyof View, string])[] = [
-  ['rims', 'Rims'],
-  ['zebra', 'Zebra stripes'],
-  ['smooth', 'Smooth shading'],
-];
-
-function Show() {
-  const { wires, grid } = shown.value;
-  return (
-    <Section title="Show">
-      <div class="switches">
-        {kShown.map(([key, label]) => (
-          <Switch key={key} label={label} checked={view.value[key]} onChange={(checked) => { view.value = { ...view.peek(), [key]: checked }; }} />
-        ))}
-        <Switch label="Edges" checked={wires} onChange={(checked) => { shown.value = { ...shown.peek(), wires: checked }; }} />
-        <Switch label="Grid" checked={grid} onChange={(checked) => { shown.value = { ...shown.peek(), grid: checked }; }} />
-      </div>
-    </Section>
-  );
-}
-
-function Examples() {
-  return (
-    <Section title="Examples">
-      <div class="mesh-buttons">
-        {kExamples.map((example) => (
-          <button key={example.title} type="button" class="button" onClick={() => { openExample(example); }}>
-            {example.title}
-          </button>
-        ))}
-      </div>
     </Section>
   );
 }

@@ -13,11 +13,11 @@ import { MeshPanel, summary } from './panel.tsx';
 import { readMesh } from './read.ts';
 import { areMeshSettings, kSettings, type MeshSettings } from './settings.ts';
 import { placeOf, vertexAt } from './whole.ts';
-import { isFilled, reasonIn, wordsFor } from './wording.ts';
+import { isFilled, reasonIn } from './wording.ts';
 
 /** Work that failed, and holes that have no surface. */
 const failures = computed<readonly Failure[]>(() => {
-  const ofWork = [finding, filling].flatMap(({ state: { value } }) => (value.phase === 'failed' ? { ...value, message: wordsFor(value) } : []));
+  const ofWork = [finding, filling].flatMap(({ state: { value } }) => (value.phase === 'failed' ? value : []));
   const now = found.value;
   if (now === null) return ofWork;
   const ofHoles = holes.value.flatMap((hole, h): Failure[] => {
