@@ -1,5 +1,5 @@
 // What the mode draws besides meshes: patches, and the rims of holes.
-import { computed, effect } from '@preact/signals';
+import { computed } from '@preact/signals';
 import { Color } from 'three';
 import { FatLines } from '../../scene/fat_line.ts';
 import type { ModeScene } from '../../scene/mode_scene.ts';
@@ -22,21 +22,15 @@ export function drawHoles(stage: Stage, { root, placement }: ModeScene): void {
   const { theme } = stage;
   const [surface, rims, marked] = [new LitSurface(1, 0.55), new FatLines(), new FatLines()];
   root.add(surface.object, rims.object, marked.object);
-  const follow = (draw: () => void): void => {
-    effect(() => {
-      draw();
-      stage.view.invalidate();
-    });
-  };
-  follow(() => {
+  stage.view.follow(() => {
     const [first] = patches.value;
     surface.set(patches.value.length > 0 ? trianglesOf(first.of, patches.value, placement.value) : null);
   });
-  follow(() => {
+  stage.view.follow(() => {
     surface.setLook(looksFor(theme.value).patches);
   });
   const isDark = computed(() => new Color(theme.value.background).getHSL({ h: 0, s: 0, l: 0 }).l < 0.4);
-  follow(() => {
+  stage.view.follow(() => {
     const now = found.value;
     const { grid } = theme.value;
     rims.clear();
@@ -46,7 +40,7 @@ export function drawHoles(stage: Stage, { root, placement }: ModeScene): void {
     const [ends, tints] = segmentsOf(now, holes.value, placement.value, (h) => (holes.value[h].isOpenRim ? grey : rimColor(h, lightness)));
     rims.put(ends, { width: kRim }, tints);
   });
-  follow(() => {
+  stage.view.follow(() => {
     const now = found.value;
     const { curves } = theme.value;
     marked.clear();

@@ -1,19 +1,20 @@
 // Triangles of meshes and patches as they are drawn: lit on both sides, smooth or flat, with their edges, and with
 // stripes as of a zebra's hide, which break where the surface has a kink.
-import { BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, ShaderMaterial, Sphere } from 'three';
+import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, ShaderMaterial, Sphere, type Color } from 'three';
+import { colorUniforms, kCorner, kLight, kWire, setColors } from '../../scene/glsl.ts';
 
 /** More triangles than this are drawn without edges, which would need thrice the vertices. */
 const kMostWired = 400_000;
 
 const kVertexShader = /* glsl */ `
+${kCorner}
 attribute float mark;
 varying vec3 vNormal;
 varying vec3 vEye;
 varying vec3 vCorner;
 varying float vMark;
 void main() {
-  int corner = gl_VertexID % 3;
-  vCorner = vec3(float(corner == 0), float(corner == 1), float(corner == 2));
+  vCorner = cornerOf(gl_VertexID);
   vec4 eye = modelViewMatrix * vec4(position, 1.0);
   vNormal = normalMatrix * normal;
   vEye = -eye.xyz;
@@ -21,8 +22,9 @@ void main() {
   gl_Position = projectionMatrix * eye;
 }`;
 
-// Light comes from over the viewer's left shoulder and from the sky, as on films.
 const kFragmentShader = /* glsl */ `
+${kLight}
+${kWire}
 uniform vec3 uFront;
 uniform vec3 uBack;
 uniform vec3 uMark;
@@ -40,21 +42,14 @@ void main() {
   bool front = gl_FrontFacing;
   vec3 n = uSmooth > 0.5 && dot(vNormal, vNormal) > 0.0 ? normalize(vNormal) * (front ? 1.0 : -1.0) : flatNormal;
   if (dot(flatNormal, toEye) < 0.0 && uSmooth < 0.5) n = -n;
-  float key = clamp(dot(n, normalize(vec3(-0.45, 0.65, 0.7))), 0.0, 1.0);
-  float fill = clamp(dot(n, normalize(vec3(0.8, -0.1, 0.45))), 0.0, 1.0);
   vec3 base = mix(front ? uFront : uBack, uMark, vMark);
-  vec3 color = base * (0.42 + 0.56 * key + 0.16 * fill);
-  vec3 h = normalize(normalize(vec3(-0.45, 0.65, 0.7)) + toEye);
-  color += 0.06 * pow(clamp(dot(n, h), 0.0, 1.0), 32.0);
+  vec3 color = base * lightOn(n, vec3(0.42, 0.56, 0.16));
+  color += 0.06 * glossOn(n, toEye);
   float along = 9.0 * reflect(-toEye, n).y;
   float width = fwidth(along) + 1e-4;
   float stripe = smoothstep(-width, width, abs(fract(along) - 0.5) - 0.25);
   color *= 1.0 - uZebra * 0.72 * stripe;
-  vec3 perPixel = fwidth(vCorner);
-  vec3 inside = smoothstep(perPixel * -0.125, perPixel * 0.875, vCorner);
-  // Edges of triangles that are lower than a few pixels fade, else they would cover everything.
-  vec3 strength = (1.0 - inside) * (1.0 - smoothstep(0.12, 0.6, perPixel));
-  color = mix(color, uWire, uWireOpacity * max(max(strength.x, strength.y), strength.z));
+  color = mix(color, uWire, uWireOpacity * wireAt(vCorner, 0.12, 0.6));
   gl_FragColor = vec4(color, 1.0);
   #include <colorspace_fragment>
 }`;
@@ -100,10 +95,7 @@ export class LitSurface {
       polygonOffsetFactor: 1,
       polygonOffsetUnits: 2 - order,
       uniforms: {
-        uFront: { value: new Color() },
-        uBack: { value: new Color() },
-        uMark: { value: new Color() },
-        uWire: { value: new Color() },
+        ...colorUniforms('uFront', 'uBack', 'uMark', 'uWire'),
         uWireOpacity: { value: 0 },
         uSmooth: { value: 1 },
         uZebra: { value: 0 },
@@ -123,10 +115,7 @@ export class LitSurface {
 
   setLook(look: SurfaceLook): void {
     const { uniforms } = this.object.material;
-    (uniforms.uFront.value as Color).copy(look.front);
-    (uniforms.uBack.value as Color).copy(look.back);
-    (uniforms.uMark.value as Color).copy(look.mark);
-    (uniforms.uWire.value as Color).copy(look.wire);
+    setColors(this.object.material, { uFront: look.front, uBack: look.back, uMark: look.mark, uWire: look.wire });
     uniforms.uSmooth.value = look.smooth ? 1 : 0;
     uniforms.uZebra.value = look.zebra;
     if (this.isSpread === look.wires) return;
