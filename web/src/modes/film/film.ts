@@ -17,12 +17,15 @@ export function setFilm(settings: Partial<FilmSettings>, gesture?: string, passi
   setIn(film.peek(), settings, gesture, passing);
 }
 
-const openingOf = ({ title, curves, settings, view }: Example, variant: number | undefined): Opening => ({
-  name: variant === undefined ? title : `${title} (${variant})`,
-  items: curves(variant).map((points) => newItem(kCurve, curveOf(points))),
-  settings,
-  view,
-});
+function openingOf(example: Example, variant: number | undefined): Opening {
+  const { title, settings, view } = example;
+  return {
+    name: variant === undefined ? title : `${title} (${variant})`,
+    items: example.curves(variant).map((points) => newItem(kCurve, curveOf(points))),
+    settings,
+    view,
+  };
+}
 
 export function openExample(example: Example, variant: number | undefined): void {
   openItems(film.peek(), openingOf(example, variant));

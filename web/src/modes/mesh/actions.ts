@@ -2,7 +2,7 @@
 import { computed } from '@preact/signals';
 import type { Action } from '../../app/actions.ts';
 import { fileStem, save } from '../../app/files.ts';
-import { add, cross, normalize, scale, subtract } from '../../shapes/vec.ts';
+import { add, cross, length, normalize, scale, subtract, type Point } from '../../shapes/vec.ts';
 import { newItem } from '../../state/document.ts';
 import { complain } from '../../state/notice.ts';
 import { beginWith, openItems, requestFrame, type Opening } from '../../state/store.ts';
@@ -18,6 +18,9 @@ import { isFilled } from './wording.ts';
 
 /** What is about a hole that is looked at, in sizes of the hole. */
 const kAround = 2.2;
+
+/** A hole whose rims bound less area together than this share of what they bound singly faces nowhere. */
+const kFacing = 0.3;
 
 export const chosen = computed<readonly Hole[]>(() => chosenHoles.value.flatMap((h) => holes.value.at(h) ?? []));
 
@@ -92,17 +95,23 @@ function saveFilled(extension: string, type: string, write: (mesh: MeshShape, na
   save(`${fileStem(name)}${filled.length > 0 ? '-filled' : ''}.${extension}`, type, () => write(withPatches(of, filled), name));
 }
 
-/** Brings a hole into view, from outside. */
+/** Brings a hole into view, from outside: from where the eye is, if it has no side of its own, as a missing band. */
 export function lookAt({ loops }: Hole): void {
   const now = found.peek();
   if (now === null) return;
-  const rim = Array.from(now.report.loops[loops[0]].vertices, (vertex) => vertexAt(now.of, vertex));
-  // Newell's sum, about a point of the rim so that far from the origin no digits are lost.
-  const arms = rim.map((point) => subtract(point, rim[0]));
-  const normal = arms.map((arm, i) => cross(arm, arms[(i + 1) % arms.length])).reduce(add);
+  const areas = loops.map((loop) => areaOf(Array.from(now.report.loops[loop].vertices, (vertex) => vertexAt(now.of, vertex))));
+  // Islands run the other way round, and take away from it.
+  const area = areas.reduce(add);
+  const isFacing = length(area) > kFacing * areas.reduce((sum, each) => sum + length(each), 0);
   const { low, high } = boxOfLoops(now, loops);
   const more = scale(subtract(high, low), (kAround - 1) / 2);
-  requestFrame(normalize(normal), false, { low: subtract(low, more), high: add(high, more) });
+  requestFrame(isFacing ? normalize(area) : undefined, false, { low: subtract(low, more), high: add(high, more) });
+}
+
+/** Twice the area that a rim bounds, along its normal: Newell's sum, about a point of the rim so that no digits are lost. */
+function areaOf(rim: readonly Point[]): Point {
+  const arms = rim.map((point) => subtract(point, rim[0]));
+  return arms.map((arm, i) => cross(arm, arms[(i + 1) % arms.length])).reduce(add);
 }
 
 const openingOf = ({ title, shape, view: direction }: Example): Opening => ({ name: title, items: [newItem(meshKind, shape())], view: direction });

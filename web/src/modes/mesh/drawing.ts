@@ -5,7 +5,8 @@ import { FatLines } from '../../scene/fat_line.ts';
 import type { ModeScene } from '../../scene/mode_scene.ts';
 import { allToScene, toScene, type Placement } from '../../scene/placement.ts';
 import type { Stage } from '../../scene/stage.ts';
-import { patches, withPatches, type Patch } from './filling.ts';
+import { colorsOf, joined, picked } from './attributes.ts';
+import { patches, type Patch } from './filling.ts';
 import type { Hole } from './grouping.ts';
 import { chosenHoles, found, holes, hoveredHole } from './holes.ts';
 import { LitSurface, type SceneTriangles } from './lit_surface.ts';
@@ -79,28 +80,36 @@ function segmentsOf({ of, report }: Found, all: readonly Hole[], placement: Plac
 
 /** The triangles of all patches, with only the vertices that they have; those that intersect something are marked. */
 function trianglesOf(of: Whole, all: readonly Patch[], placement: Placement): SceneTriangles {
-  const { positions, faces } = withPatches(of, all);
-  const first = of.faces.length;
+  const n = of.positions.length / 3;
   const crossed = [...new Set(all.flatMap((patch) => patch.crossed))];
-  const corners = new Uint32Array(faces.length - first + 3 * crossed.length);
-  corners.set(faces.subarray(first));
-  crossed.forEach((face, i) => {
-    corners.set(faces.subarray(3 * face, 3 * face + 3), faces.length - first + 3 * i);
-  });
+  const sum = (key: 'positions' | 'faces') => all.reduce((length, patch) => length + patch[key].length, 0);
+  const fresh = sum('positions') / 3;
+  // Those of the patches come first, then those of the mesh as they are met.
+  const old = new Map<number, number>();
+  const numberOf = (vertex: number): number => {
+    const number = old.get(vertex) ?? fresh + old.size;
+    old.set(vertex, number);
+    return number;
+  };
+  const faces = new Uint32Array(sum('faces') + 3 * crossed.length);
   const marked = new Set<number>();
-  let at = 0;
+  let [to, first] = [0, 0];
   for (const patch of all) {
-    for (const face of patch.crossing) marked.add(at + face);
-    at += patch.faces.length / 3;
+    for (const face of patch.crossing) marked.add(to / 3 + face);
+    for (const vertex of patch.faces) faces[to++] = vertex < n ? numberOf(vertex) : vertex - n + first;
+    first += patch.positions.length / 3;
   }
-  for (let i = 0; i < crossed.length; i++) marked.add(at + i);
-  const numbers = new Map<number, number>();
-  for (let i = 0; i < corners.length; i++) {
-    const number = numbers.get(corners[i]) ?? numbers.size;
-    numbers.set(corners[i], number);
-    corners[i] = number;
+  for (const face of crossed) {
+    marked.add(to / 3);
+    for (let corner = 0; corner < 3; corner++) faces[to++] = numberOf(of.faces[3 * face + corner]);
   }
-  const own = new Float32Array(3 * numbers.size);
-  for (const [vertex, number] of numbers) own.set(positions.subarray(3 * vertex, 3 * vertex + 3), 3 * number);
-  return { positions: allToScene(placement, own), faces: corners, marked };
+  const positions = new Float32Array(3 * (fresh + old.size));
+  first = 0;
+  for (const patch of all) {
+    positions.set(patch.positions, first);
+    first += patch.positions.length;
+  }
+  for (const [vertex, number] of old) positions.set(of.positions.subarray(3 * vertex, 3 * vertex + 3), 3 * number);
+  const colors = colorsOf(joined([...all, picked(of.attributes, [...old.keys()])]));
+  return { positions: allToScene(placement, positions), faces, colors, marked };
 }

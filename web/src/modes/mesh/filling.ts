@@ -1,13 +1,14 @@
 // Filling the holes that are to be filled, in the worker. Patches are kept: only those that are missing, or were made in
 // another way, are computed.
 import { computed, signal } from '@preact/signals';
-import type { FilledHole, FillOptions, FillResult, HoleReport } from 'soapfilm';
+import type { FilledHole, FillResult, HoleFillOptions, HoleReport } from 'soapfilm';
 import { add, subtract, type Box } from '../../shapes/vec.ts';
 import { createWork } from '../../state/work.ts';
 import { found, holes, settings, wishFor } from './holes.ts';
+import { joined, picked, type Attributes } from './attributes.ts';
 import type { Hole } from './grouping.ts';
-import { kMode, type MeshSettings, type Smoothness } from './settings.ts';
-import { boxOfLoops, type Whole } from './whole.ts';
+import { kMode, type MeshSettings, type MeshShape, type Smoothness } from './settings.ts';
+import { boxOfLoops, meshIn, type Whole } from './whole.ts';
 import { explain } from './wording.ts';
 
 /** What became of one hole. */
@@ -20,6 +21,8 @@ export interface Patch {
   readonly faces: Uint32Array;
   /** `[3n]` the patch's own vertices. */
   readonly positions: Float32Array;
+  /** Of its own vertices: those that the mesh has. */
+  readonly attributes?: Attributes;
   /** Numbers of its faces that intersect something, and of the mesh's that it intersects. */
   readonly crossing: readonly number[];
   readonly crossed: readonly number[];
@@ -30,13 +33,20 @@ interface Job {
   readonly report: HoleReport;
   readonly holes: readonly Hole[];
   readonly manner: string;
-  readonly options: FillOptions;
+  readonly options: HoleFillOptions;
 }
 
-const kFairness: Record<Smoothness, NonNullable<FillOptions['fairness']>> = { none: 0, direction: 1, curvature: 2, auto: 'auto' };
+const kFairness: Record<Smoothness, NonNullable<HoleFillOptions['fairness']>> = { none: 0, direction: 1, curvature: 2, auto: 'auto' };
 
 const keyOf = ({ loops }: Hole): string => loops.join(' ');
-const mannerOf = ({ smoothness, density, candidates }: MeshSettings): string => `${smoothness} ${density} ${candidates}`;
+const optionsOf = ({ smoothness, density, candidates, creases, creaseAngle }: MeshSettings): HoleFillOptions => ({
+  fairness: kFairness[smoothness],
+  density,
+  candidates,
+  creases: creases && creaseAngle,
+});
+/** The same for settings that make the same patches. */
+const mannerOf = (of: MeshSettings): string => JSON.stringify(optionsOf(of));
 
 const kept = signal<ReadonlyMap<string, Patch>>(new Map());
 
@@ -48,8 +58,7 @@ const jobKey = computed(() => [mannerOf(settings.value), ...wanted.value.map(key
 const job = computed<Job | null>(() => {
   const now = found.value;
   if (now === null || jobKey.value.indexOf('\n') < 0) return null;
-  const { smoothness, density, candidates } = settings.peek();
-  return { ...now, holes: wanted.peek(), manner: mannerOf(settings.peek()), options: { fairness: kFairness[smoothness], density, candidates } };
+  return { ...now, holes: wanted.peek(), manner: mannerOf(settings.peek()), options: optionsOf(settings.peek()) };
 });
 
 /** The patch of a hole, if it is to have one and has: perhaps one that was made in another way. */
@@ -76,7 +85,7 @@ export const filling = createWork<Job, ReadonlyMap<string, Patch>>({
     const todo = missing(of);
     if (todo.length === 0) return new Map();
     const result = await film.fillHoles(
-      { positions: of.of.positions, faces: of.of.faces },
+      meshIn(of.of),
       {
         ...of.options,
         groups: todo.map(({ loops }) => loops),
@@ -107,7 +116,11 @@ function missing({ of, report, holes: all, manner }: Job): Hole[] {
   if (todo.length === 0 || todo.length === all.length) return todo;
   const reachOf = ({ loops }: Hole): Box => grown(boxOfLoops({ of, report }, loops));
   const boxes = todo.map(reachOf);
-  return all.filter((hole) => !isMade(hole) || boxes.some((box) => doMeet(box, reachOf(hole))));
+  return all.filter((hole) => {
+    if (!isMade(hole)) return true;
+    const own = reachOf(hole);
+    return boxes.some((box) => doMeet(box, own));
+  });
 }
 
 /** A box and half as much again all round, for what bulges. */
@@ -143,12 +156,13 @@ function patchesIn({ mesh, oldVertices, oldFaces, holes: results }: FillResult, 
     }
     const positions = new Float32Array(3 * own.size);
     for (const [vertex, number] of own) positions.set(single.subarray(3 * (vertex - oldVertices), 3 * (vertex - oldVertices) + 3), 3 * number);
-    return { of, manner, result, faces, positions, crossing: [...crossing[h]], crossed: [...crossed[h]] };
+    const attributes = picked(mesh.attributes, Array.from(own.keys(), (vertex) => vertex - oldVertices));
+    return { of, manner, result, faces, positions, ...attributes, crossing: [...crossing[h]], crossed: [...crossed[h]] };
   });
 }
 
 /** The mesh with patches, old vertices and faces first and as they were. */
-export function withPatches({ positions, faces }: Whole, all: readonly Patch[]): { positions: Float32Array; faces: Uint32Array } {
+export function withPatches({ positions, faces, attributes }: Whole, all: readonly Patch[]): MeshShape {
   const n = positions.length / 3;
   const more = (key: 'positions' | 'faces') => all.reduce((sum, patch) => sum + patch[key].length, 0);
   const points = new Float32Array(positions.length + more('positions'));
@@ -161,5 +175,5 @@ export function withPatches({ positions, faces }: Whole, all: readonly Patch[]):
     for (const vertex of patch.faces) corners[to++] = vertex < n ? vertex : vertex - n + first;
     first += patch.positions.length / 3;
   }
-  return { positions: points, faces: corners };
+  return { positions: points, faces: corners, ...(attributes && joined([{ attributes }, ...all])) };
 }

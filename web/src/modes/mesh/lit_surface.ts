@@ -2,6 +2,7 @@
 // stripes as of a zebra's hide, which break where the surface has a kink.
 import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, ShaderMaterial, Sphere, type Color } from 'three';
 import { colorUniforms, kCorner, kLight, kWire, setColors } from '../../scene/glsl.ts';
+import type { Attribute } from './attributes.ts';
 
 /** More triangles than this are drawn without edges, which would need thrice the vertices. */
 const kMostWired = 400_000;
@@ -9,6 +10,10 @@ const kMostWired = 400_000;
 const kVertexShader = /* glsl */ `
 ${kCorner}
 attribute float mark;
+#ifdef TINTED
+attribute vec3 tint;
+varying vec3 vTint;
+#endif
 varying vec3 vNormal;
 varying vec3 vEye;
 varying vec3 vCorner;
@@ -19,6 +24,9 @@ void main() {
   vNormal = normalMatrix * normal;
   vEye = -eye.xyz;
   vMark = mark;
+  #ifdef TINTED
+  vTint = tint;
+  #endif
   gl_Position = projectionMatrix * eye;
 }`;
 
@@ -32,6 +40,9 @@ uniform vec3 uWire;
 uniform float uWireOpacity;
 uniform float uSmooth;
 uniform float uZebra;
+#ifdef TINTED
+varying vec3 vTint;
+#endif
 varying vec3 vNormal;
 varying vec3 vEye;
 varying vec3 vCorner;
@@ -42,7 +53,11 @@ void main() {
   bool front = gl_FrontFacing;
   vec3 n = uSmooth > 0.5 && dot(vNormal, vNormal) > 0.0 ? normalize(vNormal) * (front ? 1.0 : -1.0) : flatNormal;
   if (dot(flatNormal, toEye) < 0.0 && uSmooth < 0.5) n = -n;
-  vec3 base = mix(front ? uFront : uBack, uMark, vMark);
+  vec3 plain = front ? uFront : uBack;
+  #ifdef TINTED
+  plain = vTint;
+  #endif
+  vec3 base = mix(plain, uMark, vMark);
   vec3 color = base * lightOn(n, vec3(0.42, 0.56, 0.16));
   color += 0.06 * glossOn(n, toEye);
   float along = 9.0 * reflect(-toEye, n).y;
@@ -61,6 +76,8 @@ export interface SurfaceLook {
   readonly wire: Color;
   readonly wires: boolean;
   readonly smooth: boolean;
+  /** Whether colours of vertices are shown, where there are any. */
+  readonly colored: boolean;
   /** 0 to 1. */
   readonly zebra: number;
 }
@@ -71,6 +88,8 @@ export interface SceneTriangles {
   readonly positions: Float32Array;
   /** `[3m]` */
   readonly faces: Uint32Array;
+  /** Of the vertices. */
+  readonly colors: Attribute | null;
   /** Numbers of triangles in the colour of marks. */
   readonly marked?: ReadonlySet<number>;
 }
@@ -80,6 +99,7 @@ export class LitSurface {
   private shown: SceneTriangles | null = null;
   private normals: Float32Array | null = null;
   private isSpread = false;
+  private isColored = false;
 
   /** @param order surfaces of a higher one lie before others at the same place */
   constructor(
@@ -118,8 +138,9 @@ export class LitSurface {
     setColors(this.object.material, { uFront: look.front, uBack: look.back, uMark: look.mark, uWire: look.wire });
     uniforms.uSmooth.value = look.smooth ? 1 : 0;
     uniforms.uZebra.value = look.zebra;
-    if (this.isSpread === look.wires) return;
+    if (this.isSpread === look.wires && this.isColored === look.colored) return;
     this.isSpread = look.wires;
+    this.isColored = look.colored;
     this.build();
   }
 
@@ -132,24 +153,37 @@ export class LitSurface {
     object.geometry = geometry;
     object.visible = shown !== null && shown.faces.length > 0;
     if (shown === null) return;
-    const { positions, faces, marked } = shown;
+    const { positions, faces, marked, colors } = shown;
+    const isTinted = colors !== null && this.isColored;
+    if (isTinted !== 'TINTED' in object.material.defines) {
+      object.material.defines = isTinted ? { TINTED: '' } : {};
+      object.material.needsUpdate = true;
+    }
     const isWired = this.isSpread && faces.length <= 3 * kMostWired;
     object.material.uniforms.uWireOpacity.value = isWired ? this.wireOpacity : 0;
     const normals = (this.normals ??= normalsOf(positions, faces));
+    const put = isWired || marked ? (values: Float32Array) => spread(values, faces) : (values: Float32Array) => values;
+    geometry.setAttribute('position', new BufferAttribute(put(positions), 3));
+    geometry.setAttribute('normal', new BufferAttribute(put(normals), 3));
+    if (isTinted) geometry.setAttribute('tint', new BufferAttribute(put(tintsOf(colors)), 3));
     if (isWired || marked) {
-      geometry.setAttribute('position', new BufferAttribute(spread(positions, faces), 3));
-      geometry.setAttribute('normal', new BufferAttribute(spread(normals, faces), 3));
       if (marked && marked.size > 0) {
         const mark = new Float32Array(faces.length);
         for (const face of marked) mark.fill(1, 3 * face, 3 * face + 3);
         geometry.setAttribute('mark', new BufferAttribute(mark, 1));
       }
-    } else {
-      geometry.setAttribute('position', new BufferAttribute(positions, 3));
-      geometry.setAttribute('normal', new BufferAttribute(normals, 3));
-      geometry.setIndex(new BufferAttribute(faces, 1));
-    }
+    } else geometry.setIndex(new BufferAttribute(faces, 1));
   }
+}
+
+/** Colours as the scene reckons with them: in proportion to light. */
+function tintsOf({ data, size }: Attribute): Float32Array {
+  const tints = new Float32Array((3 * data.length) / size);
+  for (let i = 0; i < tints.length; i++) {
+    const value = Math.min(1, Math.max(0, data[size * ((i / 3) | 0) + (i % 3)]));
+    tints[i] = value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
+  }
+  return tints;
 }
 
 /** Of each corner what its vertex has. */

@@ -2,6 +2,7 @@
 import type { HoleReport } from 'soapfilm';
 import { unionOf, type Box, type Point } from '../../shapes/vec.ts';
 import type { Id, Item, Place } from '../../state/document.ts';
+import { joined } from './attributes.ts';
 import type { MeshShape } from './settings.ts';
 
 /** One mesh: that of the only object, or those of several one after the other. */
@@ -19,6 +20,9 @@ export const vertexAt = ({ positions }: MeshShape, vertex: number): Point => [
   positions[3 * vertex + 1],
   positions[3 * vertex + 2],
 ];
+
+/** A mesh as the library takes it. */
+export const meshIn = ({ positions, faces, attributes }: MeshShape): MeshShape => ({ positions, faces, ...(attributes && { attributes }) });
 
 /** What was found in a mesh. */
 export interface Found {
@@ -44,7 +48,7 @@ export function wholeOf(items: readonly Item[]): Whole {
     positions.set(shape.positions, 3 * starts[k]);
     for (const vertex of shape.faces) faces[to++] = starts[k] + vertex;
   });
-  return { items, starts, positions, faces };
+  return { items, starts, positions, faces, ...joined(shapes) };
 }
 
 /** The rims of one mesh: its parts, as the document calls them, with their vertices as handles. */
