@@ -204,7 +204,7 @@ function coreActions(stage: Stage, tools: Tools, room: Room | undefined): readon
     {
       id: 'escape',
       label: 'Cancel',
-      help: 'Cancel the stroke, the drag or the work; choose nothing',
+      help: room && areAllFixed(room) ? 'Cancel the work; choose nothing' : 'Cancel the stroke, the drag or the work; choose nothing',
       section: 'Edit',
       keys: ['escape'],
       run: () => {

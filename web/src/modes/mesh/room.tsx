@@ -52,6 +52,7 @@ export const openRoom = (stage: Stage): Room => ({
       { section: 'View', keys: 'Right drag, two fingers', what: 'Move' },
       { section: 'View', keys: 'Arrows, + −', what: 'Turn and zoom, with the scene in focus' },
       { section: 'Edit', keys: 'Click on a rim', what: 'Choose the hole; Shift: more than one' },
+      { section: 'Edit', keys: '↑ ↓', what: 'Previous and next hole, in the list; Shift: choose more' },
     ],
   },
   summary,
