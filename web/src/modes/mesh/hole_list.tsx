@@ -30,8 +30,11 @@ import { hueOf } from './looks.ts';
 import { meshGroup } from './settings.ts';
 import { isFilled, kindOfHole, reasonIn } from './wording.ts';
 
-/** More holes than this are listed only when asked for. */
+/** More holes than this are listed only when asked for, and then so many at a time as they come near to view. */
 const kManyHoles = 200;
+/** In CSS pixels: what a row takes, and how far from view rows are made. */
+const kRowHeight = 45;
+const kAhead = '2000px';
 
 const diagonal = computed(() => boundsOf(boxOfGroup(meshGroup.value)).diagonal || 1);
 const hasOpenRims = computed(() => holes.value.some(({ isOpenRim }) => isOpenRim));
@@ -41,8 +44,6 @@ export function Holes() {
   const all = holes.value;
   const [isAll, setAll] = useState(false);
   const listed = isAll ? all.length : Math.min(all.length, kManyHoles);
-  // The same rows as before are not looked at again.
-  const rows = useMemo(() => all.slice(0, listed).map((hole, h) => <HoleRow key={hole.loops[0]} hole={hole} number={h} />), [all, listed]);
   if (all.length === 0) return null;
   return (
     <Section title="Holes" aside={<span class="count">{all.length.toLocaleString('en')}</span>}>
@@ -59,7 +60,9 @@ export function Holes() {
       )}
       <Chosen />
       <ul class="mesh-holes" onPointerLeave={() => { hoverHole(null); }} onKeyDown={goByKey}>
-        {rows}
+        {Array.from({ length: Math.ceil(listed / kManyHoles) }, (_, part) => (
+          <Rows key={part} all={all} from={part * kManyHoles} />
+        ))}
       </ul>
       {all.length > listed && (
         <button type="button" class="button wide" onClick={() => { setAll(true); }}>
@@ -67,6 +70,32 @@ export function Holes() {
         </button>
       )}
     </Section>
+  );
+}
+
+/** A part of the rows, once it is near to view; until then the room for it. */
+function Rows({ all, from }: { all: readonly Hole[]; from: number }) {
+  const place = useRef<HTMLLIElement>(null);
+  const [isNear, setNear] = useState(from === 0);
+  const part = useMemo(() => all.slice(from, from + kManyHoles), [all, from]);
+  useEffect(() => {
+    if (isNear || place.current === null) return;
+    const observer = new IntersectionObserver(
+      (entries) => {
+        if (entries.some(({ isIntersecting }) => isIntersecting)) setNear(true);
+      },
+      { root: place.current.closest('.panel-body'), rootMargin: kAhead },
+    );
+    observer.observe(place.current);
+    return () => { observer.disconnect(); };
+  }, [isNear]);
+  if (!isNear) return <li ref={place} aria-hidden="true" style={{ height: `${part.length * kRowHeight}px` }} />;
+  return (
+    <>
+      {part.map((hole, h) => (
+        <HoleRow key={hole.loops[0]} hole={hole} number={from + h} />
+      ))}
+    </>
   );
 }
 

@@ -25,7 +25,7 @@ export const summary = computed(() => {
   if (found.value === null) return finding.state.value.phase === 'cancelled' ? 'Cancelled' : 'Looking for holes…';
   const all = holes.value.length;
   if (all === 0) return 'No holes: the mesh is closed';
-  const words = `${filledCount.value} of ${countOf(all, 'hole')} filled`;
+  const words = `${filledCount.value.toLocaleString('en')} of ${countOf(all, 'hole')} filled`;
   return triangles.value > 0 ? `${words}, ${countOf(triangles.value, 'triangle')}` : words;
 });
 
