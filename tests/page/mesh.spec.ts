@@ -295,6 +295,180 @@ test('a patch that crosses something: is said and marked', async ({ quietPage: p
   expect(marked).toBeGreaterThan(0);
 });
 
+/** A cube's surface of small squares, without those near the middle of one of its edges. */
+function tornCube(): { points: number[][]; faces: Face[] } {
+  const [count, points, faces, numbers] = [16, [] as number[][], [] as Face[], new Map<string, number>()];
+  const numberOf = (p: number[]): number => {
+    const key = p.join(' ');
+    const known = numbers.get(key) ?? points.push(p) - 1;
+    numbers.set(key, known);
+    return known;
+  };
+  for (let axis = 0; axis < 3; axis++) {
+    for (const side of [-1, 1]) {
+      for (let i = 0; i < count; i++) {
+        for (let j = 0; j < count; j++) {
+          const at = (u: number, v: number): number[] => {
+            const p = [0, 0, 0];
+            [p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3]] = [side, (2 * u) / count - 1, (2 * v) / count - 1];
+            return p;
+          };
+          const [x, y, z] = at(i + 0.5, j + 0.5);
+          if (x > 0.6 && z > 0.6 && Math.abs(y) < 0.4) continue;
+          const [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)].map(numberOf);
+          faces.push(...(side > 0 ? [[a, b, c], [a, c, d]] : [[a, c, b], [a, d, c]]) as Face[]);
+        }
+      }
+    }
+  }
+  return { points, faces };
+}
+
+test('creases: go on through a hole, unless they are not to', async ({ quietPage: page }) => {
+  await openMode(page);
+  await openFile(page, 'cube.ply', plyOf(tornCube()));
+  await page.waitForFunction(() => window.__meshes?.document.name === 'cube');
+  await stateOf(page);
+  await page.getByRole('button', { name: 'Fill all', exact: true }).click();
+  // Of itself a patch between flat places is let be.
+  await page.getByRole('radio', { name: 'Curvature' }).check();
+  /** How far the patch's vertices lie from the cube. */
+  const away = async (): Promise<number> => {
+    expect(await stateOf(page)).toMatchObject({ openEdges: 0 });
+    return page.evaluate(() => {
+      const { positions } = window.__meshes?.patches[0] ?? { positions: [] };
+      let most = 0;
+      for (let i = 0; i < positions.length; i += 3) {
+        most = Math.max(most, Math.abs(Math.max(Math.abs(positions[i]), Math.abs(positions[i + 1]), Math.abs(positions[i + 2])) - 1));
+      }
+      return most;
+    });
+  };
+  expect(await away()).toBeLessThan(1e-5);
+  const creases = page.getByRole('switch', { name: 'Creases go on' });
+  await creases.uncheck();
+  expect(await away()).toBeGreaterThan(0.02);
+  await expect(page.getByRole('textbox', { name: 'From angle' })).toBeHidden();
+  await page.keyboard.press('Control+z');
+  expect(await away()).toBeLessThan(1e-5);
+  // The cube's edges turn by 90 degrees.
+  const angle = page.getByRole('textbox', { name: 'From angle' });
+  await angle.fill('95');
+  await angle.press('Enter');
+  expect(await away()).toBeGreaterThan(0.02);
+});
+
+test('colours of vertices: on the mesh and on patches, or not', async ({ quietPage: page }) => {
+  await openMode(page);
+  const colors = page.getByRole('switch', { name: 'Colours' });
+  await expect(colors).toBeHidden();
+  await page.getByRole('button', { name: 'Painted knot' }).click();
+  await page.waitForFunction(() => window.__meshes?.document.name === 'Painted knot');
+  await page.getByRole('button', { name: 'Fill all', exact: true }).click();
+  expect(await stateOf(page)).toMatchObject({ openEdges: 0 });
+  const strange = await page.evaluate(() => window.__meshes?.patches.filter(({ attributes, positions }) => {
+    const color = attributes?.color;
+    return color?.size !== 3 || color.data.length !== positions.length || color.data.some((x) => !(x >= 0 && x <= 1));
+  }).length);
+  expect(strange).toBe(0);
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await page.getByRole('button', { name: 'Look from plus z' }).click();
+  await colors.hover();
+  const nextPictures = () => page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); }));
+  await nextPictures();
+  expect(await changedShare(page, async () => {
+    await colors.uncheck();
+    await nextPictures();
+  })).toBeGreaterThan(0.05);
+});
+
+test('the list by keys: arrows go through it, Enter fills, Delete leaves, Escape chooses nothing', async ({ quietPage: page }) => {
+  await openTorus(page);
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  const rows = page.locator('.mesh-hole-name');
+  await rows.first().focus();
+  await page.keyboard.press('ArrowDown');
+  await expect(rows.nth(1)).toBeFocused();
+  expect((await stateOf(page)).chosen).toEqual([1]);
+  await page.keyboard.press('Enter');
+  expect((await stateOf(page)).holes.map(({ wish }) => wish)).toEqual([null, 'fill']);
+  await page.keyboard.press('Shift+ArrowUp');
+  expect([...(await stateOf(page)).chosen].sort()).toEqual([0, 1]);
+  await page.keyboard.press('Delete');
+  expect((await stateOf(page)).holes.map(({ wish }) => wish)).toEqual(['leave', 'leave']);
+  await page.keyboard.press('Escape');
+  expect((await stateOf(page)).chosen).toEqual([]);
+  // Delete and Enter are for the row that has the focus, whatever else is chosen.
+  await rows.first().press('Enter');
+  await rows.nth(1).focus();
+  await page.keyboard.press('Control+z');
+  await page.keyboard.press('Delete');
+  expect(await stateOf(page)).toMatchObject({ chosen: [1], holes: [{ wish: null }, { wish: 'leave' }] });
+});
+
+test('a missing band: is looked at from where the eye is, since it faces nowhere', async ({ quietPage: page }) => {
+  await openMode(page);
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await page.getByRole('button', { name: 'Look from plus z' }).click();
+  const band = page.getByRole('button', { name: /^Hole \d+ band/ });
+  await band.click();
+  await page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); }));
+  // Seen from above, as before, its rims are nearly straight: along the tube they would be circles.
+  const [width, height] = await page.evaluate(() => {
+    const now = window.__meshes;
+    const places = now?.holes[now.chosen[0]].loops.flatMap((loop) => Array.from(now.report?.loops[loop].vertices ?? [], (vertex) => now.whereIs(vertex))) ?? [];
+    const extent = (of: number[]) => Math.max(...of) - Math.min(...of);
+    return [extent(places.map(({ x }) => x)), extent(places.map(({ y }) => y))];
+  });
+  expect(width).toBeGreaterThan(1.5 * height);
+});
+
+test('hundreds of holes: the first are listed, all when asked for, made as they come into view', async ({ quietPage: page }) => {
+  await openMode(page);
+  const [rows, columns] = [90, 90];
+  const points = Array.from({ length: rows * columns }, (_, v) => [v % columns, Math.floor(v / columns), 0.2 * Math.sin(v)]);
+  const faces: Face[] = [];
+  for (let i = 0; i + 1 < rows; i++) {
+    for (let j = 0; j + 1 < columns; j++) {
+      const a = i * columns + j;
+      if (i % 4 !== 2 || j % 4 !== 2) faces.push([a, a + 1, a + columns + 1], [a, a + columns + 1, a + columns]);
+    }
+  }
+  await openFile(page, 'sieve.ply', plyOf({ points, faces }));
+  await page.waitForFunction(() => window.__meshes?.document.name === 'sieve');
+  const { holes } = await stateOf(page);
+  expect(holes.length).toBeGreaterThan(400);
+  const names = page.locator('.mesh-hole-name');
+  await expect(names).toHaveCount(200);
+  await page.getByRole('button', { name: `Show all ${holes.length}` }).click();
+  await page.getByRole('heading', { name: 'Filling' }).scrollIntoViewIfNeeded();
+  await expect(names.last()).toContainText(`Hole ${holes.length} `);
+  await names.last().click();
+  expect((await stateOf(page)).chosen).toEqual([holes.length - 1]);
+  await page.getByRole('group', { name: 'Chosen holes' }).getByRole('button', { name: 'Fill' }).click();
+  expect((await stateOf(page)).filled).toEqual([holes.length - 1]);
+});
+
+test('the help: tells of nothing that the mode does not have', async ({ quietPage: page }) => {
+  await openMode(page);
+  await page.keyboard.press('?');
+  const help = page.getByRole('dialog');
+  await expect(help).toContainText('Choose the hole');
+  for (const words of ['vertex', 'Draw', 'drawing plane', 'stroke', 'Tools']) await expect(help).not.toContainText(words);
+  await page.keyboard.press('Escape');
+  await expect(page.getByRole('toolbar', { name: 'Tools' }).getByRole('button')).toHaveCount(2);
+});
+
+test.describe('by touch', () => {
+  test.use({ hasTouch: true });
+  test('a hole that was touched in the list: is chosen, and not pointed at any more', async ({ quietPage: page }) => {
+    await openTorus(page);
+    await page.getByRole('button', { name: /^Hole 2 / }).tap();
+    expect((await stateOf(page)).chosen).toEqual([1]);
+    expect(await page.evaluate(() => window.__meshes?.hovered)).toBeNull();
+  });
+});
+
 test('open rims: are left, unless that is asked for', async ({ quietPage: page }) => {
   await openMode(page);
   await page.getByRole('button', { name: 'Pot with a mouth' }).click();
