@@ -1,13 +1,13 @@
 // Finding the holes of the meshes, in the worker, and what has been decided about them.
 import { computed, signal } from '@preact/signals';
-import type { HoleReport } from 'soapfilm';
+import type { MeshSessionHandle } from 'soapfilm/worker';
 import { isSame } from '../../state/document.ts';
 import { choose, dispatch, hover, mode, selection, setIn } from '../../state/store.ts';
 import { createWork } from '../../state/work.ts';
 import { holesOf, join, split, type Hole } from './grouping.ts';
 import { kMode, kNoChoices, meshGroup, type Choices, type MeshSettings } from './settings.ts';
 import { countTwins, weld } from './weld.ts';
-import { idsOf, loopAt, noteRims, placeOf, shapeOf, wholeOf, type Found, type Whole } from './whole.ts';
+import { idsOf, loopAt, meshIn, noteRims, placeOf, shapeOf, wholeOf, type Found, type Whole } from './whole.ts';
 import { explain } from './wording.ts';
 
 const items = computed(() => meshGroup.value.items);
@@ -20,18 +20,32 @@ const latest = signal<Found | null>(null);
 /** What was found in the meshes as they are. */
 export const found = computed(() => (latest.value !== null && latest.value.of === whole.value ? latest.value : null));
 
-export const finding = createWork<Whole, HoleReport>({
+export const finding = createWork<Whole, MeshSessionHandle>({
   mode: kMode,
   verb: 'Looking for holes',
   input: whole,
   part: 'meshes',
-  compute: (film, of, { signal: ends }) => film.findHoles({ positions: of.positions, faces: of.faces }, { signal: ends }),
-  show: (report, of) => {
-    if (report && of) noteRims(of, report);
-    latest.value = report && of && { of, report };
+  begin: forget,
+  async compute(film, of, { signal: ends }) {
+    const session = await film.createMeshSession(meshIn(of), { signal: ends });
+    if (ends.aborted) session.dispose();
+    return session;
+  },
+  show: (session, of) => {
+    forget();
+    if (session === null || of === null) return;
+    const { report } = session;
+    noteRims(of, report);
+    latest.value = { of, report, session };
   },
   explain,
 });
+
+/** A mesh that is gone stays open no longer. */
+function forget(): void {
+  latest.peek()?.session.dispose();
+  latest.value = null;
+}
 
 /** How many vertices of rims lie where another one does: seams rather than holes. */
 export const twins = computed(() => {

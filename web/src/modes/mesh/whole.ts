@@ -1,5 +1,6 @@
 // All meshes of the group as one, as the library takes them, and the rims that were found in each.
 import type { HoleReport } from 'soapfilm';
+import type { MeshSessionHandle } from 'soapfilm/worker';
 import { unionOf, type Box, type Point } from '../../shapes/vec.ts';
 import type { Id, Item, Place } from '../../state/document.ts';
 import { joined } from './attributes.ts';
@@ -28,10 +29,12 @@ export const meshIn = ({ positions, faces, attributes }: MeshShape): MeshShape =
 export interface Found {
   readonly of: Whole;
   readonly report: HoleReport;
+  /** Where the mesh stays open, so that filling a hole costs what the hole does. */
+  readonly session: MeshSessionHandle;
 }
 
 /** The least box around some of the loops that were found. */
-export function boxOfLoops({ of, report }: Found, loops: readonly number[]): Box {
+export function boxOfLoops({ of, report }: Pick<Found, 'of' | 'report'>, loops: readonly number[]): Box {
   const points = loops.flatMap((loop) => Array.from(report.loops[loop].vertices, (vertex) => vertexAt(of, vertex)));
   return unionOf(points.map((point) => ({ low: point, high: point })));
 }

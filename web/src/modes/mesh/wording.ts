@@ -14,6 +14,7 @@ const kReasons: Record<HoleReason, string> = {
   'inserted-vertices': 'its rim would have to be split',
   'opposed-rims': 'a part of the mesh around it is inside out',
   'stitched': 'its sides touch each other, and were sewn',
+  'time-limit': 'it takes too long',
   'too-many-vertices': 'its rims have too many vertices',
   'too-long': 'its rim is too long',
   'not-asked-for': 'it was not asked for',
