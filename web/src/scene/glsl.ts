@@ -1,5 +1,5 @@
-// What the materials of surfaces share: pieces of their shaders, and colours as uniforms.
-import { Color, type ShaderMaterial } from 'three';
+// What the materials of surfaces share: pieces of their shaders, colours as uniforms, how they are drawn.
+import { Color, DoubleSide, ShaderMaterial, type IUniform } from 'three';
 
 /** For vertices of which three in a row are a triangle: which corner one is, as a weight of 1 among three. */
 export const kCorner = /* glsl */ `
@@ -35,4 +35,17 @@ export const colorUniforms = <Name extends string>(...names: readonly Name[]) =>
 
 export function setColors({ uniforms }: ShaderMaterial, colors: Readonly<Record<string, Color | string>>): void {
   for (const [name, color] of Object.entries(colors)) (uniforms[name].value as Color).set(color);
+}
+
+/** @param away how far it is pushed back, so that lines and dots lie on it unbroken: at one place, less is before more */
+export function surfaceMaterial(vertexShader: string, fragmentShader: string, away: number, uniforms: Record<string, IUniform>): ShaderMaterial {
+  return new ShaderMaterial({
+    vertexShader,
+    fragmentShader,
+    uniforms,
+    side: DoubleSide,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: away,
+  });
 }

@@ -1,6 +1,6 @@
 // A surface in space: lit on both sides, with its edges, growing triangle by triangle.
-import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, ShaderMaterial, Vector3 } from 'three';
-import { colorUniforms, kCorner, kLight, setColors } from './glsl.ts';
+import { BufferAttribute, BufferGeometry, Mesh, Vector3, type ShaderMaterial } from 'three';
+import { colorUniforms, kCorner, kLight, setColors, surfaceMaterial } from './glsl.ts';
 import { toScene, type Placement } from './placement.ts';
 import type { SurfaceColors } from './theme.ts';
 
@@ -72,22 +72,13 @@ export class SurfaceMesh {
   readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
 
   constructor() {
-    const material = new ShaderMaterial({
-      vertexShader: kVertexShader,
-      fragmentShader: kFragmentShader,
-      side: DoubleSide,
-      // Pushed back, so that the curves and their vertices lie on it unbroken.
-      polygonOffset: true,
-      polygonOffsetFactor: 1,
-      polygonOffsetUnits: 2,
-      uniforms: {
-        uTime: { value: 1 + kUnfold },
-        uUnfold: { value: kUnfold },
-        ...colorUniforms('uFront', 'uBack', 'uWire', 'uGlow'),
-        uWireWidth: { value: 0.6 },
-        uWireOpacity: { value: 0.6 },
-        uOpacity: { value: 1 },
-      },
+    const material = surfaceMaterial(kVertexShader, kFragmentShader, 2, {
+      uTime: { value: 1 + kUnfold },
+      uUnfold: { value: kUnfold },
+      ...colorUniforms('uFront', 'uBack', 'uWire', 'uGlow'),
+      uWireWidth: { value: 0.6 },
+      uWireOpacity: { value: 0.6 },
+      uOpacity: { value: 1 },
     });
     this.mesh = new Mesh(new BufferGeometry(), material);
     this.mesh.visible = false;

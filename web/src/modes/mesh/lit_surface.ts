@@ -1,23 +1,28 @@
 // Triangles of meshes and patches as they are drawn: lit on both sides, smooth or flat, with their edges, and with
 // stripes as of a zebra's hide, which break where the surface has a kink.
-import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, ShaderMaterial, Sphere, type Color } from 'three';
-import { colorUniforms, kCorner, kLight, kWire, setColors } from '../../scene/glsl.ts';
+import { BufferAttribute, BufferGeometry, Mesh, Sphere, type Color, type ShaderMaterial } from 'three';
+import { colorUniforms, kCorner, kLight, kWire, setColors, surfaceMaterial } from '../../scene/glsl.ts';
 import type { Attribute } from './attributes.ts';
 
 /** More triangles than this are drawn without edges, which would need thrice the vertices. */
 const kMostWired = 400_000;
+
+const kVaryings = /* glsl */ `
+#ifdef TINTED
+varying vec3 vTint;
+#endif
+varying vec3 vNormal;
+varying vec3 vEye;
+varying vec3 vCorner;
+varying float vMark;`;
 
 const kVertexShader = /* glsl */ `
 ${kCorner}
 attribute float mark;
 #ifdef TINTED
 attribute vec3 tint;
-varying vec3 vTint;
 #endif
-varying vec3 vNormal;
-varying vec3 vEye;
-varying vec3 vCorner;
-varying float vMark;
+${kVaryings}
 void main() {
   vCorner = cornerOf(gl_VertexID);
   vec4 eye = modelViewMatrix * vec4(position, 1.0);
@@ -40,13 +45,7 @@ uniform vec3 uWire;
 uniform float uWireOpacity;
 uniform float uSmooth;
 uniform float uZebra;
-#ifdef TINTED
-varying vec3 vTint;
-#endif
-varying vec3 vNormal;
-varying vec3 vEye;
-varying vec3 vCorner;
-varying float vMark;
+${kVaryings}
 void main() {
   vec3 toEye = normalize(vEye);
   vec3 flatNormal = normalize(cross(dFdx(vEye), dFdy(vEye)));
@@ -106,20 +105,11 @@ export class LitSurface {
     order: number,
     private readonly wireOpacity: number,
   ) {
-    const material = new ShaderMaterial({
-      vertexShader: kVertexShader,
-      fragmentShader: kFragmentShader,
-      side: DoubleSide,
-      // Pushed back, so that rims lie on it unbroken.
-      polygonOffset: true,
-      polygonOffsetFactor: 1,
-      polygonOffsetUnits: 2 - order,
-      uniforms: {
-        ...colorUniforms('uFront', 'uBack', 'uMark', 'uWire'),
-        uWireOpacity: { value: 0 },
-        uSmooth: { value: 1 },
-        uZebra: { value: 0 },
-      },
+    const material = surfaceMaterial(kVertexShader, kFragmentShader, 2 - order, {
+      ...colorUniforms('uFront', 'uBack', 'uMark', 'uWire'),
+      uWireOpacity: { value: 0 },
+      uSmooth: { value: 1 },
+      uZebra: { value: 0 },
     });
     this.object = new Mesh(new BufferGeometry(), material);
     this.object.frustumCulled = false;
