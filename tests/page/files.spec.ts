@@ -267,7 +267,7 @@ test('smoothing that is cancelled: said, done when tried again; meanwhile the sp
     await route.continue();
   });
   const result = page.getByRole('region', { name: 'Result' });
-  await page.getByRole('group', { name: 'Then' }).getByText('Film').click();
+  await page.getByRole('radio', { name: 'Film', exact: true }).check();
   await expect(result).toContainText('Smoothing…');
   const exported = async () => {
     const download = page.waitForEvent('download');
