@@ -15,7 +15,6 @@ const kReasons: Record<HoleReason, string> = {
   'opposed-rims': 'a part of the mesh around it is inside out',
   'time-limit': 'it would take too long',
   'stitched': 'its sides touch each other, and were sewn',
-  'time-limit': 'it takes too long',
   'too-many-vertices': 'its rims have too many vertices',
   'too-long': 'its rim is too long',
   'not-asked-for': 'it was not asked for',
