@@ -42,7 +42,7 @@ export const kActions: readonly Action[] = [
     section: 'Edit',
     keys: ['canvas+enter'],
     applies: () => chosen.value.length > 0,
-    run: () => { fill(...chosen.peek()); },
+    run: () => { fill(chosen.peek()); },
   },
   {
     id: 'leave chosen',
@@ -51,7 +51,7 @@ export const kActions: readonly Action[] = [
     section: 'Edit',
     keys: ['delete', 'backspace'],
     applies: () => chosen.value.length > 0,
-    run: () => { leave(...chosen.peek()); },
+    run: () => { leave(chosen.peek()); },
   },
   {
     id: 'fill all',

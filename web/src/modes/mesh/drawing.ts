@@ -3,7 +3,7 @@ import { computed } from '@preact/signals';
 import { Color } from 'three';
 import { FatLines } from '../../scene/fat_line.ts';
 import type { ModeScene } from '../../scene/mode_scene.ts';
-import { allToScene, toScene, type Placement } from '../../scene/placement.ts';
+import { allToScene, type Placement } from '../../scene/placement.ts';
 import type { Stage } from '../../scene/stage.ts';
 import { colorsOf, joined, picked } from './attributes.ts';
 import { patches, type Patch } from './filling.ts';
@@ -11,7 +11,7 @@ import type { Hole } from './grouping.ts';
 import { chosenHoles, found, holes, hoveredHole } from './holes.ts';
 import { LitSurface, type SceneTriangles } from './lit_surface.ts';
 import { looksFor, rimColor, view } from './looks.ts';
-import { vertexAt, type Found, type Whole } from './whole.ts';
+import type { Found, Whole } from './whole.ts';
 
 /** In CSS pixels. */
 const kRim = 2.2;
@@ -57,21 +57,22 @@ export function drawHoles(stage: Stage, { root, placement }: ModeScene): void {
   });
 }
 
-/** The rims of holes as segments, and a colour for each. */
-function segmentsOf({ of, report }: Found, all: readonly Hole[], placement: Placement, colorOf: (h: number) => Color): [Float32Array, Float32Array] {
+/** The rims of holes as segments, and a colour for each. Broken scans have a million: no points are made on the way. */
+function segmentsOf({ of, report }: Found, all: readonly Hole[], { center, unit }: Placement, colorOf: (h: number) => Color): [Float32Array, Float32Array] {
   const count = all.reduce((sum, { vertices }) => sum + vertices, 0);
   const [ends, tints] = [new Float32Array(6 * count), new Float32Array(3 * count)];
-  let [to, segment] = [0, 0];
+  let segment = 0;
+  const put = (vertex: number, at: number): void => {
+    for (let axis = 0; axis < 3; axis++) ends[at + axis] = (of.positions[3 * vertex + axis] - center[axis]) / unit;
+  };
   all.forEach((hole, h) => {
     const color = colorOf(h);
     for (const loop of hole.loops) {
       const { vertices } = report.loops[loop];
-      for (let i = 0; i < vertices.length; i++) {
-        color.toArray(tints, 3 * segment++);
-        for (const vertex of [vertices[i], vertices[i + 1 === vertices.length ? 0 : i + 1]]) {
-          ends.set(toScene(placement, vertexAt(of, vertex)), to);
-          to += 3;
-        }
+      for (let i = 0; i < vertices.length; i++, segment++) {
+        color.toArray(tints, 3 * segment);
+        put(vertices[i], 6 * segment);
+        put(vertices[i + 1 === vertices.length ? 0 : i + 1], 6 * segment + 3);
       }
     }
   });

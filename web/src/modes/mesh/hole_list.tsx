@@ -111,10 +111,10 @@ function Chosen() {
       ) : (
         <>
           <span class="label">{name}</span>
-          <button type="button" class="button small" disabled={!isFillable} onClick={() => { fill(...of); }}>
+          <button type="button" class="button small" disabled={!isFillable} onClick={() => { fill(of); }}>
             Fill
           </button>
-          <button type="button" class="button small" onClick={() => { leave(...of); }}>
+          <button type="button" class="button small" onClick={() => { leave(of); }}>
             Leave
           </button>
           {of.length === 1 && of[0].loops.length > 1 && (
@@ -206,7 +206,7 @@ function HoleRow({ hole, number }: { hole: Hole; number: number }) {
           {reason !== undefined && <span class={tone === 'bad' ? 'mesh-status bad' : 'muted'}>{reason}</span>}
         </span>
       </button>
-      <button type="button" class="button small" aria-label={`${isOn ? 'Leave' : 'Fill'} hole ${number + 1}`} onClick={() => { (isOn ? leave : fill)(hole); }}>
+      <button type="button" class="button small" aria-label={`${isOn ? 'Leave' : 'Fill'} hole ${number + 1}`} onClick={() => { (isOn ? leave : fill)([hole]); }}>
         {isOn ? 'Leave' : 'Fill'}
       </button>
     </li>
@@ -245,6 +245,6 @@ function goByKey(event: KeyboardEvent): void {
   } else if ((event.key === 'Delete' || event.key === 'Backspace') && !isThis) chooseHoles(number);
   else if (event.key === 'Enter' && isThis && event.target === row.querySelector('button')) {
     event.preventDefault();
-    fill(...chosen.peek());
+    fill(chosen.peek());
   }
 }

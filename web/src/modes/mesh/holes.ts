@@ -128,13 +128,13 @@ const minus = (list: readonly number[], less: readonly number[]): number[] => {
   return list.filter((x) => !gone.has(x));
 };
 
-export function fill(...of: readonly Hole[]): void {
+export function fill(of: readonly Hole[]): void {
   const loops = of.flatMap((hole) => hole.loops);
   const { filled, left } = choices.peek();
   decide({ filled: plus(filled, loops), left: minus(left, loops) });
 }
 
-export function leave(...of: readonly Hole[]): void {
+export function leave(of: readonly Hole[]): void {
   const loops = of.flatMap((hole) => hole.loops);
   const { filled, left } = choices.peek();
   decide({ filled: minus(filled, loops), left: plus(left, loops) });
@@ -146,7 +146,7 @@ const isMeant = (hole: Hole, openRims: boolean): boolean => wishFor(hole) !== 'l
 /** Whether filling all would fill any more. */
 export const isAnyLeft = computed(() => holes.value.some((hole) => isMeant(hole, settings.value.openRims) && wishFor(hole) !== 'fill'));
 
-export const fillAll = (): void => { fill(...holes.peek().filter((hole) => isMeant(hole, settings.peek().openRims))); };
+export const fillAll = (): void => { fill(holes.peek().filter((hole) => isMeant(hole, settings.peek().openRims))); };
 
 /** All holes are as if nothing had been said about filling them. */
 export const openAll = (): void => { decide({ filled: [], left: [] }); };

@@ -22,8 +22,9 @@ const failures = computed<readonly Failure[]>(() => {
   if (now === null) return ofWork;
   const ofHoles = holes.value.flatMap((hole, h): Failure[] => {
     const patch = patchOf(hole);
+    if (patch === null || isFilled(patch)) return [];
     const place = placeOf(now.of, hole.loops[0]);
-    if (patch === null || isFilled(patch) || place === null) return [];
+    if (place === null) return [];
     const point = vertexAt(now.of, now.report.loops[hole.loops[0]].vertices[0]);
     return [{ code: patch.result.reason ?? 'failed', message: `Hole ${h + 1}: ${reasonIn(patch)}.`, faults: [{ place, isEdge: false }], point }];
   });

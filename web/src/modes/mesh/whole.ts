@@ -58,13 +58,15 @@ export function wholeOf(items: readonly Item[]): Whole {
 export interface Rims {
   /** `[rims]` their numbers in the report. */
   readonly loops: readonly number[];
+  /** The other way round: which rim a loop is. */
+  readonly parts: ReadonlyMap<number, number>;
   /** `[rims + 1]` where each begins. */
   readonly starts: Uint32Array;
   /** The vertices of the mesh along the rims. */
   readonly vertices: Uint32Array;
 }
 
-const kNoRims: Rims = { loops: [], starts: new Uint32Array(1), vertices: new Uint32Array() };
+const kNoRims: Rims = { loops: [], parts: new Map(), starts: new Uint32Array(1), vertices: new Uint32Array() };
 const found = new WeakMap<object, Rims>();
 
 /** What was found in a mesh; no rims until then. */
@@ -80,7 +82,8 @@ export function noteRims({ items, starts }: Whole, { loops }: HoleReport): void 
     numbers.forEach((i, rim) => {
       loops[i].vertices.forEach((vertex, at) => (vertices[ends[rim] + at] = vertex - starts[k]));
     });
-    found.set(shapeOf(item), { loops: numbers, starts: ends, vertices });
+    const parts = new Map(numbers.map((loop, part) => [loop, part]));
+    found.set(shapeOf(item), { loops: numbers, parts, starts: ends, vertices });
   });
 }
 
@@ -92,8 +95,8 @@ export function loopAt({ items }: Whole, { item: id, part }: Place): number | un
 
 export function placeOf({ items }: Whole, loop: number): Place | null {
   for (const item of items) {
-    const part = rimsOf(shapeOf(item)).loops.indexOf(loop);
-    if (part >= 0) return { item: item.id, part, handle: null };
+    const part = rimsOf(shapeOf(item)).parts.get(loop);
+    if (part !== undefined) return { item: item.id, part, handle: null };
   }
   return null;
 }
