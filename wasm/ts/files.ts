@@ -107,7 +107,7 @@ const kFormats: readonly MeshFormat[] = ['obj', 'ply', 'stl', 'glb'];
  *
  * @throws SoapfilmError `bad-mesh` (`.face`), `not-finite` (`.vertex`), `bad-attributes`, `bad-option`
  */
-export async function writeMesh(mesh: MeshInput, format: MeshFormat, options: WriteMeshOptions = {}): Promise<Uint8Array> {
+export async function writeMesh(mesh: MeshInput, format: MeshFormat, options: WriteMeshOptions = {}): Promise<Uint8Array<ArrayBuffer>> {
   const { name = 'mesh' } = optionsOf<WriteMeshOptions>(options, { name: true });
   if (typeof name !== 'string') throw mustBe('bad-option', 'name', 'a string', name);
   if (format === undefined) throw mustBe('bad-option', 'format', "one of 'obj', 'ply', 'stl', 'glb'", format);

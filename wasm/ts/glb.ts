@@ -140,7 +140,7 @@ const toDisplay = (x: number): number => (x <= 0.0031308 ? 12.92 * x : 1.055 * x
 const toLinear = (x: number): number => (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);
 
 /** @param mesh checked: its indices are within range, its attributes `color` and `uv` have the right sizes */
-export async function writeGlb({ positions, faces, attributes = {} }: MeshLike, name: string): Promise<Uint8Array> {
+export async function writeGlb({ positions, faces, attributes = {} }: MeshLike, name: string): Promise<Uint8Array<ArrayBuffer>> {
   const document = new Document();
   const buffer = document.createBuffer();
   const n = positions.length / 3;

@@ -17,10 +17,11 @@ export const isBinaryStl = (bytes: Uint8Array): boolean =>
 /** @throws SoapfilmError `bad-file` */
 export function readStl(bytes: Uint8Array): MeshFile {
   const isText = !isBinaryStl(bytes) && !bytes.subarray(0, 1024).includes(0);
-  const corners = isText ? cornersInText(bytes) : cornersIn(bytes);
+  const warnings: string[] = [];
+  const corners = isText ? cornersInText(bytes, warnings) : cornersIn(bytes);
   if (corners.length === 0) throw badFile('the file has no triangles');
   const { positions, placeOf } = placesOf(corners);
-  return meshFile('stl', { positions, faces: placeOf }, [], []);
+  return meshFile('stl', { positions, faces: placeOf }, [], warnings);
 }
 
 function cornersIn(bytes: Uint8Array): Float32Array {
@@ -40,18 +41,29 @@ function cornersIn(bytes: Uint8Array): Float32Array {
   return corners;
 }
 
-function cornersInText(bytes: Uint8Array): Float32Array {
+function cornersInText(bytes: Uint8Array, warnings: string[]): Float32Array {
   const scan = new ByteScanner(bytes, false);
   const corners = new Growing(new Float32Array(9216));
+  /** 0: not within a facet. */
   let facetLine = 0;
+  let hasEnd = false;
   do {
     // Several statements may stand in one line.
-    for (let word = scan.word().toLowerCase(); word !== '' && word !== 'solid' && word !== 'endsolid'; word = scan.word().toLowerCase()) {
+    while (scan.toWord()) {
+      const word = scan.word().toLowerCase();
       if (word === 'facet') facetLine = scan.line;
-      if (word === 'vertex') for (let axis = 0; axis < 3; axis++) corners.push(scan.number('the vertex'));
-      if (word === 'endfacet' && corners.length % 9 !== 0) throw badFile('a facet has not three vertices', { line: facetLine });
+      else if (word === 'vertex') for (let axis = 0; axis < 3; axis++) corners.push(scan.number('the vertex'));
+      else if (word === 'endfacet') {
+        if (corners.length % 9 !== 0) throw badFile('a facet has not three vertices', { line: facetLine });
+        facetLine = 0;
+      } else if (word === 'solid' || word === 'endsolid') {
+        hasEnd = word === 'endsolid';
+        // What follows is its name.
+        break;
+      }
     }
   } while (scan.nextLine());
-  if (corners.length % 9 !== 0) throw badFile('the file ends within this facet', { line: facetLine });
+  if (facetLine > 0 || corners.length % 9 !== 0) throw badFile('the file ends within this facet', { line: facetLine });
+  if (!hasEnd) warnings.push('The file has no end, and may be cut off');
   return corners.taken();
 }

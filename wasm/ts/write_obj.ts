@@ -4,7 +4,7 @@ import type { MeshLike } from './types.js';
 import { digitsOf, TextWriter } from './write_text.js';
 
 /** @param mesh checked */
-export function writeObj({ positions: p, faces, attributes = {} }: MeshLike, name: string): Uint8Array {
+export function writeObj({ positions: p, faces, attributes = {} }: MeshLike, name: string): Uint8Array<ArrayBuffer> {
   const writer = new TextWriter();
   writer.add(`# soapfilm\no ${name.replace(/\s+/g, ' ')}\n`);
   const digits = digitsOf(p);

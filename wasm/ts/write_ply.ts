@@ -12,7 +12,7 @@ interface Column {
 const kBytes = { float: 4, double: 8, uchar: 1 };
 
 /** @param mesh checked */
-export function writePly({ positions, faces, attributes = {} }: MeshLike): Uint8Array {
+export function writePly({ positions, faces, attributes = {} }: MeshLike): Uint8Array<ArrayBuffer> {
   const [n, m] = [positions.length / 3, faces.length / 3];
   const type = positions instanceof Float64Array ? 'double' : 'float';
   const columns = ['x', 'y', 'z'].map((name, axis): Column => ({ name, type, at: (v) => positions[3 * v + axis] }));

@@ -2,7 +2,7 @@
 import type { MeshLike } from './types.js';
 
 /** @param mesh checked */
-export function writeStl({ positions: p, faces }: MeshLike): Uint8Array {
+export function writeStl({ positions: p, faces }: MeshLike): Uint8Array<ArrayBuffer> {
   const m = faces.length / 3;
   const bytes = new Uint8Array(84 + 50 * m);
   bytes.set(new TextEncoder().encode('soapfilm'));

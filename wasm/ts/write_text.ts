@@ -13,7 +13,7 @@ export class TextWriter {
     if (this.text.length >= kPiece) this.flush();
   }
 
-  taken(): Uint8Array {
+  taken(): Uint8Array<ArrayBuffer> {
     this.flush();
     return this.bytes.slice(0, this.length);
   }
