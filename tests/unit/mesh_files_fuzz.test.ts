@@ -52,12 +52,10 @@ test.each<[string, () => Promise<Uint8Array>]>([
   ['STL, binary', () => Promise.resolve(binaryStl())],
   ['GLB', () => Promise.resolve(kGlb)],
   ['GLB with all there is', () => writeMesh(torn, 'glb')],
-])('%s: a mesh or an error of ours', async (name, make) => {
+])('%s, damaged: a mesh or an error of ours (seed 5)', async (_, make) => {
   const bytes = await make();
   expectSound(await readMesh(bytes));
-  const seed = Math.floor(Math.random() * 2 ** 31);
-  console.log(`${name}: seed ${seed}`);
-  const random = new Random(seed);
+  const random = new Random(5);
   const outcomes = { read: 0, refused: 0 };
   for (let round = 0; round < kRounds; round++) {
     let file = damaged(bytes, random);
@@ -66,7 +64,7 @@ test.each<[string, () => Promise<Uint8Array>]>([
       expectSound(await readMesh(file, random.chance(0.5) ? `a.${['obj', 'ply', 'stl', 'glb'][random.below(4)]}` : undefined));
       outcomes.read++;
     } catch (error) {
-      if (!(error instanceof SoapfilmError)) throw new Error(`seed ${seed}, round ${round}: ${JSON.stringify([...file])}`, { cause: error });
+      if (!(error instanceof SoapfilmError)) throw new Error(`Round ${round}: ${JSON.stringify([...file])}`, { cause: error });
       expect(error.code).toBe('bad-file');
       outcomes.refused++;
     }
