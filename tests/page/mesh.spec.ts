@@ -235,7 +235,7 @@ test('broken files and meshes: are said', async ({ quietPage: page }) => {
   const first = await openTorus(page);
   const text = plyOf(tornTorus());
   for (const [name, broken, words] of [
-    ['short.ply', text.slice(0, -2000), 'Line 3209: the file ends too early'],
+    ['short.ply', text.slice(0, -2000), 'Line 3208: the file ends too early'],
     ['word.ply', text.replace('end_header\n1.4', 'end_header\none'), 'Line 10: “one'],
     ['none.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n', 'Line 4: there is no vertex 9'],
   ]) {

@@ -61,7 +61,7 @@ function bytesOf(given: unknown): Bytes {
   const isBuffer = tagOf(given) === '[object ArrayBuffer]';
   const bytes = isBuffer ? new Uint8Array(given as ArrayBuffer) : viewOf(['Uint8Array'], given);
   if (!bytes) throw mustBe('bad-file', 'bytes', 'an ArrayBuffer or a Uint8Array', given);
-  return tagOf(bytes.buffer) === '[object ArrayBuffer]' ? (bytes as Bytes) : bytes.slice();
+  return tagOf(bytes.buffer) === '[object ArrayBuffer]' ? bytes : bytes.slice();
 }
 
 /** Text of 16 bits in UTF-8, and without a byte order mark; other content as it is. */
@@ -110,8 +110,8 @@ const kFormats: readonly MeshFormat[] = ['obj', 'ply', 'stl', 'glb'];
 export async function writeMesh(mesh: MeshInput, format: MeshFormat, options: WriteMeshOptions = {}): Promise<Uint8Array<ArrayBuffer>> {
   const { name = 'mesh' } = optionsOf<WriteMeshOptions>(options, { name: true });
   if (typeof name !== 'string') throw mustBe('bad-option', 'name', 'a string', name);
-  if (format === undefined) throw mustBe('bad-option', 'format', "one of 'obj', 'ply', 'stl', 'glb'", format);
-  const chosen = choiceOf('format', kFormats, format);
+  // Left out, it would be the first.
+  const chosen = choiceOf('format', kFormats, (format as unknown) ?? null);
   const checked = checkedMesh(mesh);
   switch (chosen) {
     case 'obj':

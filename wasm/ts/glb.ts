@@ -58,7 +58,7 @@ class Parts {
         this.points.push(at);
       }
     }
-    const order = primitive.getIndices()?.getArray() ?? Uint32Array.from({ length: n }, (_, i) => i);
+    const order: ArrayLike<number> & Iterable<number> = (primitive.getIndices()?.getArray() as Uint32Array | null | undefined) ?? Uint32Array.from({ length: n }, (_, i) => i);
     for (const vertex of order) {
       if (vertex >= n) throw badFile(`a triangle names the vertex ${vertex}, and there are only ${n}`);
     }

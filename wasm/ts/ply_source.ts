@@ -37,7 +37,7 @@ class TextSource implements Source {
     while (!this.scan.toWord()) if (!this.scan.nextLine()) throw badFile(kTooShort, this.place);
   }
 
-  next(_: Scalar): number {
+  next(): number {
     const { scan } = this;
     if (scan.toWord()) return scan.value('the element');
     throw badFile(scan.isAtEnd ? kTooShort : 'there are fewer numbers than the header and the lists in this line say', this.place);
