@@ -9,6 +9,7 @@ import type {
   Part,
   PolygonOptions,
   PolygonsOptions,
+  SessionFillOptions,
   SmoothOptions,
   SpanOptions,
   Weights,
@@ -64,8 +65,8 @@ export const kHoleOptions: Names<HoleOptions> = { ...kLimits, weld: true };
 
 export const kSmoothOptions: Names<SmoothOptions> = { ...kLimits, kind: true, density: true, maxNewVertices: true };
 
-export const kFillOptions: Names<FillOptions> = {
-  ...kHoleOptions,
+export const kSessionFillOptions: Names<SessionFillOptions> = {
+  ...kLimits,
   ...kHoleFillOptions,
   holes: true,
   groups: true,
@@ -75,7 +76,10 @@ export const kFillOptions: Names<FillOptions> = {
   maxLength: true,
   output: true,
   onProgress: true,
+  maxSecondsPerHole: true,
 };
+
+export const kFillOptions: Names<FillOptions> = { ...kHoleOptions, ...kSessionFillOptions };
 
 export interface Limits {
   readonly maxMemoryBytes?: number;

@@ -61,7 +61,7 @@ const kProgressMs = 30;
  * WebAssembly memory never shrinks, so an instance that has grown beyond this is dropped when it has been
  * idle for a while. Not at once: large calls often follow each other, and growing again takes time.
  */
-const kKeepBytes = 256 * 2 ** 20;
+export const kKeepBytes = 256 * 2 ** 20;
 const kIdleMs = 1000;
 /** If an instance that trapped cannot grow by this many 64 KiB pages, it ran out of memory. */
 const kProbePages = 1024;
@@ -132,6 +132,7 @@ export async function startCore(part: Part, compiled: WebAssembly.Module): Promi
 function imports(compiled: WebAssembly.Module): WebAssembly.Imports {
   const known: Record<string, (...args: number[]) => unknown> = {
     sf_host_progress: onHostProgress,
+    sf_host_seconds: () => performance.now() / 1000,
     sf_host_result: onHostResult,
     proc_exit: (code) => {
       throw new Error(`the core exited with ${code}`);
