@@ -447,14 +447,16 @@ export function fileSlots(): Slot[] {
 }
 
 function meshFileSlots(): Slot[] {
-  const read = readMesh as (bytes: unknown, name?: unknown) => Promise<unknown>;
+  const read = readMesh as (bytes: unknown, name?: unknown, options?: unknown) => Promise<unknown>;
   const write = writeMesh as (mesh: unknown, format: unknown, options?: unknown) => Promise<unknown>;
+  const obj = new TextEncoder().encode('v 0 0 0\nf 1 1 1\n');
   const positions = new Float64Array(9);
   const faces = Uint32Array.of(0, 1, 2);
   const attribute = { data: new Float32Array(9), size: 3 };
   return [
     ...slots('readMesh', ['bad-file'], [['bytes', (v) => read(v), [], /`bytes`|file/]]),
-    ...slots('readMesh', ['bad-option'], [['name', (v) => read(new TextEncoder().encode('v 0 0 0\nf 1 1 1\n'), v), kText]]),
+    ...slots('readMesh', ['bad-option'], [['name', (v) => read(obj, v), kText]]),
+    ...optionSlots('readMesh', (options) => read(obj, '', options), { seams: ['missing'] }),
     ...slots('writeMesh', ['bad-mesh', 'bad-attributes', 'bad-option', 'not-finite'], [
       ['mesh', (v) => write(v, 'ply')],
       ['mesh.positions', (v) => write({ positions: v, faces }, 'ply'), [], /\bpositions\b|Face 0 of `mesh`/],

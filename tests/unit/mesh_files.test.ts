@@ -1,6 +1,6 @@
 // soapfilm/files: all formats give the same mesh, what is written comes back, and what is broken is said with its place.
 import { fillHoles, findHoles, load, SoapfilmError, type MeshLike } from 'soapfilm';
-import { readMesh, writeMesh, type MeshFormat } from 'soapfilm/files';
+import { readMesh, writeMesh, type MeshFormat, type ReadMeshOptions } from 'soapfilm/files';
 import { Matrix4 } from 'three';
 import { beforeAll, describe, expect, test } from 'vitest';
 import { rejectionOf } from '../support/errors.js';
@@ -8,7 +8,8 @@ import {
   binaryPly, binaryStl, bytesOf, facet, glbOf, gltfOf, kFaces, kGlb, kGlbData, kMesh, kObj, kPly, kPoints, kStl,
 } from '../support/mesh_files.js';
 
-const read = (content: string | Uint8Array, name?: string) => readMesh(typeof content === 'string' ? bytesOf(content) : content, name);
+const read = (content: string | Uint8Array, name?: string, options?: ReadMeshOptions) =>
+  readMesh(typeof content === 'string' ? bytesOf(content) : content, name, options);
 const lists = ({ positions, faces }: MeshLike) => [Array.from(positions, Math.fround), [...faces]];
 
 /** The corners of all triangles, whatever the numbers of their vertices. */
@@ -128,6 +129,11 @@ describe('OBJ', () => {
     const torn = await read(`${square}f 1/1 2/2 3/3\nf 1/6 3/3 4/4\n`);
     expect([torn.attributes, torn.positions.length]).toEqual([undefined, 12]);
     expect(torn.warnings).toEqual(['Some vertices have several texture coordinates: these are left out, for the mesh would have a seam there']);
+    const split = await read(`${square.replaceAll(' 0\nv', ' 0 .1 .2 .3\nv').replace('0 1 0\n', '0 1 0 .1 .2 .3\n')}f 1/1 2/2 3/3\nf 1/6 3/3 4/4\n`, '', { seams: 'split' });
+    expect(lists(split)).toEqual([[0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 0], [0, 1, 2, 4, 2, 3]]);
+    expect(split.attributes?.uv).toEqual({ data: Float32Array.of(0, 0, 1, 0, 1, 1, 0, 1, 0.5, 0.5), size: 2 });
+    expect(split.attributes?.color.data).toHaveLength(15);
+    expect(split.warnings).toEqual([]);
     const some = await read(`${square}f 1/1 2/2 3/3\nf 1 3 4\n`);
     expect([some.attributes, some.warnings]).toEqual([undefined, ['Only some vertices have texture coordinates: these are left out']]);
   });
@@ -407,6 +413,11 @@ describe('GLB', () => {
     });
     const mesh = await read(glbOf(json, data));
     expect(lists(mesh)).toEqual([[0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0], [0, 1, 2, 1, 3, 2]]);
+    const split = await read(glbOf(json, data), '', { seams: 'split' });
+    expect(lists(split)).toEqual([at, [0, 1, 2, 3, 4, 5]]);
+    expect(split.attributes).toEqual({ uv: { data: Float32Array.from(uv, (x, i) => (i % 2 === 1 ? 1 - x : x)), size: 2 } });
+    // The seam is no rim once its vertices are one.
+    expect(findHoles(split, { weld: 0 }).loops).toHaveLength(1);
     expect([mesh.attributes, mesh.warnings]).toEqual([undefined, ['Some vertices have several texture coordinates: these are left out, for the mesh would have a seam there']]);
   });
 
@@ -534,9 +545,9 @@ describe('what is written', () => {
   });
 });
 
-describe('filled', () => {
-  beforeAll(() => load({ parts: ['meshes'] }));
+beforeAll(() => load({ parts: ['meshes'] }));
 
+describe('filled', () => {
   test('read, filled, written, read: no hole is left, old vertices keep their colours, new ones have some between', async () => {
     const size = 12;
     const rows = Array.from({ length: size * size }, (_, v) => [v % size, Math.floor(v / size)]);

@@ -2,7 +2,7 @@
 import { choiceOf, guarded, mustBe, optionsOf, viewOf } from './check.js';
 import { SoapfilmError } from './errors.js';
 import { flattenMesh } from './hole_input.js';
-import { badFile, kColor, kUv, type MeshFile, type MeshFormat } from './mesh_file.js';
+import { badFile, kColor, kUv, type MeshFile, type MeshFormat, type ReadMeshOptions } from './mesh_file.js';
 import { readObj } from './read_obj.js';
 import { readPly } from './read_ply.js';
 import { isBinaryStl, readStl } from './read_stl.js';
@@ -11,7 +11,7 @@ import { writeObj } from './write_obj.js';
 import { writePly } from './write_ply.js';
 import { writeStl } from './write_stl.js';
 
-export type { MeshFile, MeshFormat } from './mesh_file.js';
+export type { MeshFile, MeshFormat, ReadMeshOptions } from './mesh_file.js';
 export type { MeshAttribute, MeshInput, MeshLike } from './types.js';
 
 /**
@@ -22,8 +22,7 @@ export type { MeshAttribute, MeshInput, MeshLike } from './types.js';
  * All objects of a file become one mesh; those of GLB are put where its scene has them.
  *
  * Attributes: `color` has red, green, blue, and perhaps alpha, from 0 to 1, as displays take them. `uv` has texture
- * coordinates from the lower left corner, unless a vertex has several of them, as at the seams of a texture: then there are
- * none, since the mesh would have to be cut there. Other numbers of the vertices in PLY have the names that they have
+ * coordinates from the lower left corner; where a vertex has several of them, the option `seams` says what becomes of them. Other numbers of the vertices in PLY have the names that they have
  * there. `warnings` says what was left out.
  *
  * @param name of the file: its extension counts where the content could be of several formats
@@ -31,19 +30,21 @@ export type { MeshAttribute, MeshInput, MeshLike } from './types.js';
  * @throws SoapfilmError `bad-file` if it is in none of the formats, or broken, with `line`, `vertex` or `face` where known;
  *   `bad-option`
  */
-export async function readMesh(bytes: ArrayBuffer | Uint8Array, name = ''): Promise<MeshFile> {
+export async function readMesh(bytes: ArrayBuffer | Uint8Array, name = '', options: ReadMeshOptions = {}): Promise<MeshFile> {
   if (typeof name !== 'string') throw mustBe('bad-option', 'name', 'a string', name);
+  const given = optionsOf<ReadMeshOptions>(options, { seams: true });
+  const seams = choiceOf<'join' | 'split'>('seams', ['join', 'split'], given.seams);
   const content = guarded('bad-file', 'bytes', () => utf8(bytesOf(bytes)));
   try {
     switch (formatOf(content, name)) {
       case 'obj':
-        return readObj(content);
+        return readObj(content, seams);
       case 'ply':
         return readPly(content);
       case 'stl':
         return readStl(content);
       case 'glb':
-        return await (await import('./glb.js')).readGlb(content);
+        return await (await import('./glb.js')).readGlb(content, seams);
     }
   } catch (error) {
     // Arrays cannot be of any length.

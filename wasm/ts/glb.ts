@@ -6,19 +6,19 @@ import { weldedAttributes } from './attributes.js';
 import { SoapfilmError } from './errors.js';
 import { reducedGltf, splitGlb, type Gltf } from './gltf.js';
 import { Growing } from './growing.js';
-import { badFile, kColor, kUv, meshFile, type MeshFile } from './mesh_file.js';
-import { placesOf } from './places.js';
+import { badFile, kColor, kSeamWarning, kUv, meshFile, type MeshFile, type ReadMeshOptions } from './mesh_file.js';
+import { placesOf, type Places } from './places.js';
 import type { MeshAttribute, MeshLike } from './types.js';
 
 const io = (): WebIO => new WebIO().setLogger(new Logger(Logger.Verbosity.SILENT)).setVertexLayout(VertexLayout.SEPARATE);
 
 /** @throws SoapfilmError `bad-file` */
-export async function readGlb(bytes: Uint8Array<ArrayBuffer>): Promise<MeshFile> {
+export async function readGlb(bytes: Uint8Array<ArrayBuffer>, seams: ReadMeshOptions['seams']): Promise<MeshFile> {
   try {
     const glb = splitGlb(bytes);
     const { json, resources, warnings } = reducedGltf(glb.json as Gltf, glb.data, GLB_BUFFER);
     const document = await io().readJSON({ json: json as unknown as GLTF.IGLTF, resources });
-    return meshOf(document, warnings);
+    return meshOf(document, seams === 'split', warnings);
   } catch (error) {
     if (error instanceof SoapfilmError) throw error;
     // Something is not of the kind that it has to be.
@@ -103,15 +103,12 @@ class Parts {
   }
 }
 
-function meshOf(document: Document, warnings: string[]): MeshFile {
+function meshOf(document: Document, doSplit: boolean, warnings: string[]): MeshFile {
   const parts = new Parts();
   document.getRoot().getDefaultScene()?.traverse((node) => { parts.add(node); });
   if (parts.faces.length === 0) throw badFile('the file has no triangles');
   if (parts.hasOthers) warnings.push('Lines and points are left out');
-  // Files split vertices for their normals and textures.
   const points = parts.points.taken();
-  const { positions, placeOf } = placesOf(points);
-  const faces = parts.faces.taken().map((vertex) => placeOf[vertex]);
   const n = points.length / 3;
   const given: Record<string, MeshAttribute> = {};
   if (parts.colors.length === 4 * n) {
@@ -120,15 +117,29 @@ function meshOf(document: Document, warnings: string[]): MeshFile {
   } else if (parts.colors.length > 0) warnings.push('Only some vertices have a colour: colours are left out');
   if (parts.uvs.length === 2 * n) given[kUv] = { data: parts.uvs.taken(), size: 2 };
   else if (parts.uvs.length > 0) warnings.push('Only some vertices have texture coordinates: these are left out');
+  // Files split vertices for their normals and textures.
+  const { positions, placeOf } = joined(points, doSplit ? given[kUv] : undefined);
+  const faces = parts.faces.taken().map((vertex) => placeOf[vertex]);
   const attributes = weldedAttributes(given, placeOf, positions.length / 3);
   const isKept = ([name, { data }]: [string, MeshAttribute]): boolean => {
     if (name !== kUv || placeOf.every((place, i) => given[kUv].data[2 * i] === data[2 * place] && given[kUv].data[2 * i + 1] === data[2 * place + 1])) {
       return true;
     }
-    warnings.push('Some vertices have several texture coordinates: these are left out, for the mesh would have a seam there');
+    warnings.push(kSeamWarning);
     return false;
   };
   return meshFile('glb', { positions, faces }, Object.entries(attributes).filter(isKept), warnings);
+}
+
+/** Vertices at the same place as one; those with different texture coordinates, if given, stay apart. */
+function joined(points: Float32Array, uv: MeshAttribute | undefined): Places {
+  if (!uv) return placesOf(points, 3);
+  const numbers = new Float32Array((5 * points.length) / 3);
+  for (let i = 0; 3 * i < points.length; i++) {
+    for (let k = 0; k < 5; k++) numbers[5 * i + k] = k < 3 ? points[3 * i + k] : uv.data[2 * i + k - 3];
+  }
+  const { positions, placeOf } = placesOf(numbers, 5);
+  return { positions: positions.filter((_, i) => i % 5 < 3), placeOf };
 }
 
 /** Of the part that turns and scales. */

@@ -17,6 +17,18 @@ export interface MeshFile extends MeshLike {
   readonly warnings: readonly string[];
 }
 
+/** Options of `readMesh`. */
+export interface ReadMeshOptions {
+  /**
+   * What becomes of vertices with several texture coordinates, at the seams of a texture. `'join'` (default): the mesh is
+   * whole, and there is no `uv`. `'split'`: there are several vertices at the same place, each with its `uv`, and `fillHoles`
+   * needs `weld: 0`, so that seams are no holes.
+   */
+  readonly seams?: 'join' | 'split';
+}
+
+export const kSeamWarning = 'Some vertices have several texture coordinates: these are left out, for the mesh would have a seam there';
+
 /** Attributes that mean the same in all formats: colours of 3 or 4 numbers, texture coordinates of 2. */
 export const kColor = 'color';
 export const kUv = 'uv';

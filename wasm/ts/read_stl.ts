@@ -20,7 +20,7 @@ export function readStl(bytes: Uint8Array): MeshFile {
   const warnings: string[] = [];
   const corners = isText ? cornersInText(bytes, warnings) : cornersIn(bytes);
   if (corners.length === 0) throw badFile('the file has no triangles');
-  const { positions, placeOf } = placesOf(corners);
+  const { positions, placeOf } = placesOf(corners, 3);
   return meshFile('stl', { positions, faces: placeOf }, [], warnings);
 }
 
