@@ -90,8 +90,13 @@ export function* fillSteps(place: MeshPlace, given: OpenHoles, options: FillOpti
       ({ split } = again);
       break;
     }
-    // Without those that cannot be filled all the same: their faces stay whole.
+    // Without those that cannot be filled all the same: their faces stay whole, and they say what was wrong last.
     const all = splits;
+    const holes = patches.holes.map((hole, g) => {
+      const { reason } = again.patches.holes[g];
+      return reason !== undefined && all.has(g) && !again.done.includes(g) ? { ...hole, reason } : hole;
+    });
+    patches = { ...patches, holes };
     splits = new Map(again.done.map((g) => [g, all.get(g) ?? []]));
   }
   const close = closePatches(split.mesh, patches);
