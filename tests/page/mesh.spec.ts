@@ -138,6 +138,12 @@ test('export: every format is watertight, and the old part is as it was', async 
   expect(ply.bytes.toString('latin1')).toContain(`element face ${rows('f').length}\n`);
   const stl = await exported(page, 'STL');
   expect(stl.bytes.readUInt32LE(80)).toBe(rows('f').length);
+  const glb = await exported(page, 'GLB');
+  expect(glb.file).toBe('torus-filled.glb');
+  // What is exported can be opened again: there is nothing left to fill.
+  await openFile(page, 'again.glb', glb.bytes);
+  await page.waitForFunction(() => window.__meshes?.document.name === 'again');
+  expect(await stateOf(page)).toMatchObject({ faces: rows('f').length, openEdges: 0 });
   expect(stl.bytes.length).toBe(84 + 50 * rows('f').length);
   for (const { bytes, file } of [obj, ply, stl]) {
     await openFile(page, file.replace('.', '-again.'), bytes);
