@@ -25,7 +25,7 @@ function cornersIn(geometry: BufferGeometry, name: string): number[][] {
   return order.map((v) => Array.from({ length: attribute.itemSize }, (_, k) => attribute.getComponent(v, k)));
 }
 
-const cornersOf = (data: Float32Array, size: number, change = (x: number, _: number): number => x): number[][] =>
+const cornersOf = (data: Float32Array, size: number, change: (x: number, k: number) => number = (x) => x): number[][] =>
   kFaces.map((v) => Array.from(data.subarray(size * v, size * (v + 1)), change));
 
 const kPlaces = cornersOf(mesh.positions, 3);
@@ -42,12 +42,12 @@ function expectNear(found: number[][], wanted: number[][], by = 1e-5): void {
 }
 
 function geometryIn(object: Object3D): BufferGeometry {
-  let found: BufferGeometry | null = null;
+  const found: BufferGeometry[] = [];
   object.traverse((each) => {
-    if (each instanceof Mesh) found = each.geometry as BufferGeometry;
+    if (each instanceof Mesh) found.push(each.geometry as BufferGeometry);
   });
-  if (found === null) throw new Error('There is no mesh.');
-  return found;
+  expect(found).toHaveLength(1);
+  return found[0];
 }
 
 test('OBJ: places, colours and texture coordinates', async () => {
