@@ -2,7 +2,7 @@
 import { readCrossingsArrays, readFillArrays, readHolesArrays, readWeldArrays, type ArrayReader, type FillArrays, type HolesArrays } from './border.js';
 import { meshError } from './messages.js';
 import type { Limits } from './options.js';
-import { callCore, Home, kDefaultMemoryBytes, kKeepBytes, shared, type CoreArgument, type Watch } from './runtime.js';
+import { callCore, Home, isLarge, kDefaultMemoryBytes, shared, type CoreArgument, type Watch } from './runtime.js';
 import type { MeshAttribute, ProgressListener } from './types.js';
 
 /** A mesh whose arrays are of the right kinds. */
@@ -122,7 +122,6 @@ export function forgetMesh(name: number): void {
   const { session } = kept;
   kept = undefined;
   // Memory of an instance never shrinks.
-  const isLarge = (keptHome.core?.memory.buffer.byteLength ?? 0) > kKeepBytes;
-  if (keptHome.lost || isLarge) keptHome = new Home('meshes');
+  if (keptHome.lost || isLarge(keptHome)) keptHome = new Home('meshes');
   else callKept(kClose, [session], () => undefined, {});
 }

@@ -61,7 +61,7 @@ const kProgressMs = 30;
  * WebAssembly memory never shrinks, so an instance that has grown beyond this is dropped when it has been
  * idle for a while. Not at once: large calls often follow each other, and growing again takes time.
  */
-export const kKeepBytes = 256 * 2 ** 20;
+const kKeepBytes = 256 * 2 ** 20;
 const kIdleMs = 1000;
 /** If an instance that trapped cannot grow by this many 64 KiB pages, it ran out of memory. */
 const kProbePages = 1024;
@@ -286,10 +286,13 @@ function takeBack(home: Home, core: Core): void {
   home.copies = [];
 }
 
+/** Whether the home has an instance that is too large to keep when nobody needs it. */
+export const isLarge = ({ core }: Home): boolean => core !== undefined && core.memory.buffer.byteLength > kKeepBytes;
+
 /** Drops a large shared instance after a while without calls. Its timer does not keep Node alive. */
 function giveUpWhenIdle(home: Home): void {
   clearTimeout(home.idle);
-  if (home.core && home.core.memory.buffer.byteLength > kKeepBytes) {
+  if (isLarge(home)) {
     home.idle = setTimeout(() => (home.core = undefined), kIdleMs);
     (home.idle as { unref?: () => void }).unref?.();
   }
