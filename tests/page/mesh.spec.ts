@@ -138,6 +138,12 @@ test('export: every format is watertight, and the old part is as it was', async 
   expect(ply.bytes.toString('latin1')).toContain(`element face ${rows('f').length}\n`);
   const stl = await exported(page, 'STL');
   expect(stl.bytes.readUInt32LE(80)).toBe(rows('f').length);
+  const glb = await exported(page, 'GLB');
+  expect(glb.file).toBe('torus-filled.glb');
+  // What is exported can be opened again: there is nothing left to fill.
+  await openFile(page, 'again.glb', glb.bytes);
+  await page.waitForFunction(() => window.__meshes?.document.name === 'again');
+  expect(await stateOf(page)).toMatchObject({ faces: rows('f').length, openEdges: 0 });
   expect(stl.bytes.length).toBe(84 + 50 * rows('f').length);
   for (const { bytes, file } of [obj, ply, stl]) {
     await openFile(page, file.replace('.', '-again.'), bytes);
@@ -235,7 +241,7 @@ test('broken files and meshes: are said', async ({ quietPage: page }) => {
   const first = await openTorus(page);
   const text = plyOf(tornTorus());
   for (const [name, broken, words] of [
-    ['short.ply', text.slice(0, -2000), 'Line 3209: it ends too early'],
+    ['short.ply', text.slice(0, -2000), 'Line 3208: the file ends too early'],
     ['word.ply', text.replace('end_header\n1.4', 'end_header\none'), 'Line 10: “one'],
     ['none.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n', 'Line 4: there is no vertex 9'],
   ]) {

@@ -1,5 +1,6 @@
 // What can be done with meshes besides what all modes have.
 import { computed } from '@preact/signals';
+import type { MeshFormat } from 'soapfilm/files';
 import type { Action } from '../../app/actions.ts';
 import { fileStem, save } from '../../app/files.ts';
 import { add, cross, length, normalize, scale, subtract, type Point } from '../../shapes/vec.ts';
@@ -12,7 +13,7 @@ import type { Hole } from './grouping.ts';
 import { chosenHoles, fill, fillAll, found, holes, isAnyLeft, leave, whole } from './holes.ts';
 import { view } from './looks.ts';
 import { meshKind } from './mesh_kind.ts';
-import { meshGroup, type MeshShape } from './settings.ts';
+import { meshGroup } from './settings.ts';
 import { boxOfLoops, vertexAt } from './whole.ts';
 import { isFilled } from './wording.ts';
 
@@ -24,14 +25,14 @@ const kFacing = 0.3;
 
 export const chosen = computed<readonly Hole[]>(() => chosenHoles.value.flatMap((h) => holes.value.at(h) ?? []));
 
-const kExport = (id: string, note: string, type: string, extension: string, write: (mesh: MeshShape, name: string) => Promise<Blob>): Action => ({
+const kExport = (id: string, note: string, type: string, format: MeshFormat): Action => ({
   id,
   label: `Export the filled mesh as ${note}`,
   bar: 'export',
   text: 'Filled mesh',
   note,
   applies: () => whole.value !== null,
-  run: () => { saveFilled(extension, type, write); },
+  run: () => { saveFilled(format, type); },
 });
 
 export const kActions: readonly Action[] = [
@@ -74,16 +75,13 @@ export const kActions: readonly Action[] = [
     isOn: () => view.value.zebra,
     run: () => (view.value = { ...view.peek(), zebra: !view.peek().zebra }),
   },
-  {
-    ...kExport('save obj', 'OBJ', 'model/obj', 'obj', async (mesh, name) => (await import('./write.ts')).writeObj(mesh, name)),
-    section: 'File',
-    keys: ['ctrl+s'],
-  },
-  kExport('save ply', 'PLY', 'application/octet-stream', 'ply', async (mesh) => (await import('./write.ts')).writePly(mesh)),
-  kExport('save stl', 'STL', 'model/stl', 'stl', async (mesh) => (await import('./write.ts')).writeStl(mesh)),
+  { ...kExport('save obj', 'OBJ', 'model/obj', 'obj'), section: 'File', keys: ['ctrl+s'] },
+  kExport('save ply', 'PLY', 'application/octet-stream', 'ply'),
+  kExport('save stl', 'STL', 'model/stl', 'stl'),
+  kExport('save glb', 'GLB', 'model/gltf-binary', 'glb'),
 ];
 
-function saveFilled(extension: string, type: string, write: (mesh: MeshShape, name: string) => Promise<Blob>): void {
+function saveFilled(format: MeshFormat, type: string): void {
   const of = whole.peek();
   if (of === null) return;
   if (found.peek() === null || !isSettled.peek()) {
@@ -92,7 +90,11 @@ function saveFilled(extension: string, type: string, write: (mesh: MeshShape, na
   }
   const { name } = meshGroup.peek();
   const filled = patches.peek().filter(isFilled);
-  save(`${fileStem(name)}${filled.length > 0 ? '-filled' : ''}.${extension}`, type, () => write(withPatches(of, filled), name));
+  save(`${fileStem(name)}${filled.length > 0 ? '-filled' : ''}.${format}`, type, async () => {
+    // Fetched when first wanted.
+    const { writeMesh } = await import('soapfilm/files');
+    return new Blob([await writeMesh(withPatches(of, filled), format, { name })], { type });
+  });
 }
 
 /** Brings a hole into view, from outside: from where the eye is, if it has no side of its own, as a missing band. */
