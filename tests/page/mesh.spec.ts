@@ -381,6 +381,24 @@ test('colours of vertices: on the mesh and on patches, or not', async ({ quietPa
   })).toBeGreaterThan(0.05);
 });
 
+test('a PLY with colours: they are drawn, carried on by patches and exported', async ({ quietPage: page }) => {
+  await openMode(page);
+  const torus = tornTorus();
+  const colored = plyOf(torus)
+    .replace('property float z\n', 'property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n')
+    .replaceAll(/^-?[\d.]+(e-\d+)? \S+ \S+$/gm, (line) => `${line} 250 120 10`);
+  await openFile(page, 'orange.ply', colored);
+  await page.waitForFunction(() => window.__meshes?.document.name === 'orange');
+  await expect(page.getByRole('switch', { name: 'Colours' })).toBeChecked();
+  await page.getByRole('button', { name: 'Fill all', exact: true }).click();
+  expect(await stateOf(page)).toMatchObject({ openEdges: 0 });
+  const { bytes } = await exported(page, 'PLY');
+  expect(bytes.toString('latin1')).toContain('property uchar red\n');
+  await openFile(page, 'again.ply', bytes);
+  await page.waitForFunction(() => window.__meshes?.document.name === 'again');
+  await expect(page.getByRole('switch', { name: 'Colours' })).toBeVisible();
+});
+
 test('the list by keys: arrows go through it, Enter fills, Delete leaves, Escape chooses nothing', async ({ quietPage: page }) => {
   await openTorus(page);
   await page.emulateMedia({ reducedMotion: 'reduce' });
