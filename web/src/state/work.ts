@@ -91,16 +91,18 @@ export function endShownWork(): boolean {
 }
 
 const threads = new Map<Part, Promise<Film>>();
-/** Only calls about holes are shared out among threads. */
-const kMostThreads: Record<Part, number> = { loops: 1, polygons: 1, meshes: 4 };
+/** Holes are shared out among so many threads at the most. */
+const kMostThreads = 4;
+
+/** Only calls about meshes are shared out; one core is left to the page. */
+const threadsOf = (part: Part): number =>
+  part === 'meshes' ? Math.max(1, Math.min(kMostThreads, navigator.hardwareConcurrency - 1)) : 1;
 
 /** The threads for a part of the library; made when first wanted, and again after that has failed. */
 function threadsFor(part: Part): Promise<Film> {
   const known = threads.get(part);
   if (known) return known;
-  // One core is left to the page.
-  const size = Math.max(1, Math.min(kMostThreads[part], navigator.hardwareConcurrency - 1));
-  const made = createWorker({ parts: [part], size });
+  const made = createWorker({ parts: [part], size: threadsOf(part) });
   threads.set(part, made);
   made.catch(() => threads.delete(part));
   return made;
