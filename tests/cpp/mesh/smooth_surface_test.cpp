@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "mesh/bvh.h"
 #include "support/meshes.h"
@@ -39,7 +40,7 @@ uint32_t faultOf(const TestMesh& mesh) {
 
 TEST_CASE("smoothSurface: between two rings a catenoid, and a thread where there is none") {
   SmoothOptions options;
-  options.maxNewVertices = 1500;
+  options.refining.maxNewVertices = 1500;
   const double height = 0.8;
   const SmoothSurface film = smoothed(tubeMesh(96, 6, height), options);
   CHECK(film.isMinimal);
@@ -70,7 +71,7 @@ TEST_CASE("smoothSurface: over a flat boundary all kinds are flat") {
        {SurfaceKind::SoapFilm, SurfaceKind::ThinPlate, SurfaceKind::Curvature}) {
     CAPTURE(int(kind));
     SmoothOptions options;
-    options.kind = kind, options.density = 0;
+    options.kind = kind, options.refining.density = 0;
     const SmoothSurface surface = smoothed(sheet, options);
     CHECK(surface.area == doctest::Approx(4).epsilon(1e-3));
   }
@@ -95,4 +96,59 @@ TEST_CASE(
   bow.addFace(n, n + 3, n + 4);
   CHECK(faultOf(bow) == open.faces.size() / 3);
   CHECK(faultOf(TestMesh{}) == kNone);
+}
+
+namespace {
+
+/// A fan over a ring of radius 1 at some height.
+TestMesh fanMesh(uint32_t n, double height = 0) {
+  TestMesh mesh;
+  for (uint32_t i = 0; i < n; ++i) {
+    const double angle = 2 * std::acos(-1.0) * i / n;
+    mesh.addVertex({std::cos(angle), std::sin(angle), height});
+  }
+  for (uint32_t i = 1; i + 1 < n; ++i) mesh.addFace(0, i, i + 1);
+  return mesh;
+}
+
+/// The normals that a function gives in the middle of the edges from each vertex to the next, of n.
+std::vector<double> normalsAlong(const TestMesh& mesh, uint32_t n,
+                                 const std::function<Vec3(Vec3)>& normal) {
+  std::vector<double> normals;
+  for (uint32_t i = 0; i < n; ++i) {
+    const Vec3 middle =
+        0.5 * (pointAt(mesh.positions, i) + pointAt(mesh.positions, (i + 1) % n));
+    const Vec3 at = normal(middle);
+    normals.insert(normals.end(), {at.x, at.y, at.z});
+  }
+  return normals;
+}
+
+/// The largest difference of a distance from 0 over the free vertices.
+double farthest(const SmoothSurface& surface, const std::function<double(Vec3)>& distance) {
+  double most = 0;
+  for (size_t v = surface.boundary.size(); v < surface.positions.size() / 3; ++v)
+    most = std::fmax(most, std::fabs(distance(pointAt(surface.positions, uint32_t(v)))));
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("smoothSurface: with a sphere's normals a disc becomes the sphere's cap") {
+  for (const double degrees : {20.0, 60.0, 90.0, 110.0}) {
+    const double angle = degrees * std::acos(-1.0) / 180, radius = 1 / std::sin(angle);
+    const Vec3 centre{0, 0, -radius * std::cos(angle)};
+    const TestMesh disc = fanMesh(80);
+    const std::vector<double> normals =
+        normalsAlong(disc, 80, [&](Vec3 p) { return p - centre; });
+    for (const SurfaceKind kind : {SurfaceKind::ThinPlate, SurfaceKind::Curvature}) {
+      SmoothOptions options;
+      options.kind = kind, options.isClamped = true, options.boundaryNormals = normals;
+      const SmoothSurface cap = smoothed(disc, options);
+      const double off =
+          farthest(cap, [&](Vec3 p) { return length(p - centre) / radius - 1; });
+      MESSAGE(degrees << " " << int(kind) << " " << off << " " << cap.positions.size() / 3);
+      CHECK(off < 2e-3);
+    }
+  }
 }

@@ -25,13 +25,17 @@ ArrayView<const uint32_t> surroundings(const LocalSurface& surface) {
 
 class Fairing {
  public:
-  Fairing(const LocalSurface& surface, Work& work) : surface_(surface), work_(work) { findNear(); }
+  ///   unit  of the places that are faired
+  Fairing(const LocalSurface& surface, double unit, Work& work)
+      : surface_(surface), work_(work), clamps_(surface.clamps) {
+    for (Clamp& clamp : clamps_) clamp.pull = (1 / unit) * clamp.pull;
+    findNear();
+  }
 
   /// Solves `rounds` times, of the order asked for or the next lower one that works. Returns that order.
   uint32_t solve(const FairOptions& options, std::vector<Vec3>& at);
-  /// Steps to the least variation of curvature, as long as they lead there.
-  /// Returns whether any did.
-  bool leastVariation(uint32_t steps, std::vector<Vec3>& at);
+  /// Steps to the least energy, as long as they lead there. Returns whether any did.
+  bool leastEnergy(uint32_t order, uint32_t steps, std::vector<Vec3>& at);
 
  private:
   void findNear();
@@ -45,6 +49,7 @@ class Fairing {
 
   const LocalSurface& surface_;
   Work& work_;
+  std::vector<Clamp> clamps_;
   std::vector<uint32_t> near_;  // [3m] triangles that the system knows of
   std::vector<double> flat_;
   Laplacian laplacian_;
@@ -53,6 +58,10 @@ class Fairing {
 /// Rows of vertices at most two edges away from a free one are all that k = 3 takes.
 void Fairing::findNear() {
   const std::vector<uint32_t>& t = surface_.triangles;
+  if (!clamps_.empty()) {
+    near_ = t;
+    return;
+  }
   std::vector<uint8_t> isNear(surface_.positions.size() / 3, 0);
   for (size_t v = surface_.fixedVertices; v < isNear.size(); ++v) isNear[v] = 1;
   std::vector<uint32_t> ring;
@@ -71,7 +80,7 @@ void Fairing::findNear() {
 bool Fairing::measure(ArrayView<const Vec3> at) {
   flat_.clear();
   for (const Vec3& p : at) flat_.insert(flat_.end(), {p.x, p.y, p.z});
-  return buildLaplacian(flat_, near_, work_, laplacian_);
+  return buildLaplacian(flat_, near_, clamps_, work_, laplacian_);
 }
 
 uint32_t Fairing::solve(const FairOptions& options, std::vector<Vec3>& at) {
@@ -93,14 +102,15 @@ uint32_t Fairing::solve(const FairOptions& options, std::vector<Vec3>& at) {
   return order;
 }
 
-bool Fairing::leastVariation(uint32_t steps, std::vector<Vec3>& at) {
+bool Fairing::leastEnergy(uint32_t order, uint32_t steps, std::vector<Vec3>& at) {
   std::vector<Vec3> best = at;
   double least = 0;
   bool isBetter = false;
   for (uint32_t i = 0, halvings = 0; i <= steps; ++i) {
     if (!measure(at)) return false;
     FairSystem system(laplacian_, surface_.fixedVertices, work_);
-    const double now = system.variation(at, near_);
+    system.measure(at, near_);
+    const double now = system.energy(order);
     if (i > 0 && !(now < least && isTame(at))) {
       // Too far: half of the step, or none.
       if (++halvings > 2) break;
@@ -110,7 +120,7 @@ bool Fairing::leastVariation(uint32_t steps, std::vector<Vec3>& at) {
     isBetter = isBetter || i > 0;
     least = now, best = at;
     double most;
-    if (i == steps || !system.stepToLeastVariation(at, most)) break;
+    if (i == steps || !system.step(order, at, most)) break;
     if (most < kLastStep * std::sqrt(1.0 / double(at.size()))) steps = i + 1;
   }
   at = best;
@@ -128,10 +138,10 @@ Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairn
   if (!charge.add(n * 300 + surface.triangles.size() * 8)) return work.status();
   std::vector<Vec3> at(n);
   for (size_t v = 0; v < n; ++v) at[v] = box.in(&surface.positions[3 * v]);
-  Fairing fairing(surface, work);
+  Fairing fairing(surface, box.extent(), work);
   uint32_t order = fairing.solve(options, at);
-  if (order == 3 && options.curvatureSteps > 0 &&
-      !fairing.leastVariation(options.curvatureSteps, at) && options.rounds == 0) {
+  const uint32_t steps = options.stepsOf(order);
+  if (steps > 0 && !fairing.leastEnergy(order, steps, at) && options.rounds == 0) {
     // Something has to smooth it.
     FairOptions once = options;
     once.rounds = 1;
@@ -163,9 +173,9 @@ bool roughness(const LocalSurface& surface, Work& work, double& result) {
   }
   const ArrayView<const uint32_t> around = surroundings(surface);
   Laplacian laplacian;
-  if (!buildLaplacian(flat, around, work, laplacian)) return false;
+  if (!buildLaplacian(flat, around, {}, work, laplacian)) return false;
   FairSystem system(laplacian, uint32_t(n), work);
-  system.variation(at, around);
+  system.measure(at, around);
   double sum = 0;
   size_t count = 0;
   for (size_t h = 0; h < around.size(); ++h) {

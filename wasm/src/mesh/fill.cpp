@@ -103,8 +103,7 @@ bool HoleFiller::prepare() {
   for (const uint32_t v : rims_.vertices)
     if (isOfTwoRims_[v] < 2) ++isOfTwoRims_[v];
   for (uint8_t& count : isOfTwoRims_) count = count == 2;
-  return work_.tick(uint32_t(std::min<size_t>(20 * (n + m), 1u << 30))) &&
-         tree_.build(mesh_, 0, uint32_t(m));
+  return work_.tick(20 * (uint64_t(n) + m)) && tree_.build(mesh_, 0, uint32_t(m));
 }
 
 bool HoleFiller::isInFace(uint32_t a, uint32_t b, uint32_t c) const {
@@ -441,8 +440,8 @@ Status HoleFiller::fillParts(const HoleParts& parts, const FillOptions& options,
   const bool isStitched = !between.empty();
   if (parts.parts.empty() && !isStitched) return Status::Ok;
   FillOptions left = options;
-  if (parts.points.size() > left.maxNewVertices) return Status::Ok;
-  left.maxNewVertices -= uint32_t(parts.points.size());
+  if (parts.points.size() > left.refining.maxNewVertices) return Status::Ok;
+  left.refining.maxNewVertices -= uint32_t(parts.points.size());
   const size_t positions = newPositions_.size(), faces = newFaces_.size();
   const uint32_t firstPoint = vertexCount();
   result.firstFace = faceCount();
@@ -466,7 +465,7 @@ Status HoleFiller::fillParts(const HoleParts& parts, const FillOptions& options,
     FilledHole filled;
     const uint32_t before = vertexCount();
     status = fillPart(hole, left, filled);
-    left.maxNewVertices -= vertexCount() - before;
+    left.refining.maxNewVertices -= vertexCount() - before;
     if (status != Status::Ok || filled.status != FillStatus::Filled) {
       isGood = false;
       break;
@@ -504,7 +503,7 @@ Status HoleFiller::fillPart(Hole& hole, const FillOptions& options, FilledHole& 
 
   LocalSurface& surface = hole.surface;
   const auto added = [&] { return surface.positions.size() / 3 - surface.fixedVertices; };
-  const uint32_t chords = countTakenChords(hole), most = options.maxNewVertices;
+  const uint32_t chords = countTakenChords(hole), most = options.refining.maxNewVertices;
   if (chords > most) {
     result.status = FillStatus::Failed, result.reason = FillReason::DuplicateFace;
     return Status::Ok;
@@ -519,8 +518,7 @@ Status HoleFiller::fillPart(Hole& hole, const FillOptions& options, FilledHole& 
       return work_.status();
     if (options.fairing == Fairing::Bending) fairing.order = 2;
     if (options.fairing == Fairing::Curvature) fairing.order = 3;
-    RefineOptions refining;
-    refining.density = options.density;
+    RefineOptions refining = options.refining;
     refining.maxNewVertices = most == kNone ? kNone : most - chords;
     LocalSurface spanned;
     if (most != kNone) spanned = surface;

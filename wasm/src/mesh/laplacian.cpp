@@ -147,8 +147,7 @@ bool assemble(const Intrinsic& surface, uint32_t n, ArrayView<const uint8_t> isL
     for (uint32_t e = starts[v]; e < starts[v + 1]; ++e) {
       const Weight& entry = entries[e];
       if (entry.column == v) continue;  // an edge from a vertex to itself says nothing
-      if (at[entry.column] == kNone || at[entry.column] < from ||
-          rows.columns[at[entry.column]] != entry.column)
+      if (at[entry.column] == kNone || at[entry.column] < from)
         at[entry.column] = uint32_t(rows.columns.size()), rows.columns.push_back(entry.column),
         rows.values.push_back(0);
       rows.values[at[entry.column]] -= entry.value;
@@ -163,7 +162,7 @@ bool assemble(const Intrinsic& surface, uint32_t n, ArrayView<const uint8_t> isL
 }  // namespace
 
 bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t> triangles,
-                    Work& work, Laplacian& result) {
+                    ArrayView<const Clamp> clamps, Work& work, Laplacian& result) {
   const uint32_t n = uint32_t(positions.size() / 3), m = uint32_t(triangles.size() / 3);
   Charge charge(work);
   // Corners, twins, lengths, the stack, and entries of one matrix, with the search for twins less.
@@ -178,6 +177,8 @@ bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t>
   for (uint32_t h = 0; h < 3 * m; ++h)
     if (surface.mesh.twins[h] == kNone)
       result.isBoundary[triangles[h]] = result.isBoundary[triangles[nextInTriangle(h)]] = 1;
+  for (const Clamp& clamp : clamps) result.isBoundary[clamp.vertex] = 0;
+  result.clamps.assign(clamps.begin(), clamps.end());
   if (!makeDelaunay(surface, work)) return false;
 
   // Areas of Voronoi cells, which in a Delaunay triangulation are positive: with them the curvature of a sphere

@@ -236,7 +236,7 @@ bool Refinement::spreadScales(ArrayView<const uint8_t> isKnown) {
     // Whole parts may have no rim: they stay as they are.
     if (isOpen && !isNew) break;
     if (!wasOpen) ++extra;
-    if (!work_.tick(uint32_t(mesh_.corners.size() * 8))) return false;
+    if (!work_.tick(uint64_t(mesh_.corners.size()) * 8)) return false;
   }
   return true;
 }
@@ -328,7 +328,7 @@ bool Refinement::settle(uint32_t times) {
     }
     for (size_t v = 0; v < n - first; ++v)
       if (!goesBack[v]) at_[v + first] = sum[v];
-    if (!work_.tick(mesh_.triangleCount() * 100) || !flipAll()) return false;
+    if (!work_.tick(uint64_t(mesh_.triangleCount()) * 100) || !flipAll()) return false;
   }
   return true;
 }

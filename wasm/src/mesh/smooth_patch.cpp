@@ -66,10 +66,11 @@ Status smoothPatch(LocalSurface& surface, const RefineOptions& refining, const F
     fine.maxNewVertices -= newVertices(surface) - before;
     status = refine(surface, fine, work);
     if (status != Status::Ok) return status;
-    if (result.order == 3 && fairing.curvatureSteps > 0)
+    if (result.order > 0) finish.order = result.order;
+    if (fairing.stepsOf(result.order) > 0)
       finish.rounds = 0;
     else if (result.order > 0)
-      finish.order = result.order, finish.rounds = fairing.rounds < 2 ? fairing.rounds : 2;
+      finish.rounds = fairing.rounds < 2 ? fairing.rounds : 2;
   } else {
     const Status status = refine(surface, refining, work);
     if (status != Status::Ok) return status;

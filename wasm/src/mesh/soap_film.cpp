@@ -71,15 +71,15 @@ Status relaxToFilm(LocalSurface& surface, const FilmOptions& options, Work& work
     flat.clear();
     for (const Vec3& p : at) flat.insert(flat.end(), {p.x, p.y, p.z});
     Laplacian laplacian;
-    if (!buildLaplacian(flat, surface.triangles, work, laplacian)) return work.status();
+    if (!buildLaplacian(flat, surface.triangles, {}, work, laplacian)) return work.status();
     FairSystem system(laplacian, surface.fixedVertices, work);
     before = at;
     double most = 0;
     isNewton = isNewton || harmonic >= kHarmonic;
     if (isNewton) {
       const double area = doubleAreaOfPatch(surface, at);
-      system.variation(at, surface.triangles);
-      const bool isGood = system.stepToMinimalSurface(at, most) && most < kLongest;
+      system.measure(at, surface.triangles);
+      const bool isGood = system.step(1, at, most) && most < kLongest;
       if (!work.going()) return work.status();
       if (!isGood || !(doubleAreaOfPatch(surface, at) <= area * (1 + 1e-9))) {
         // Not near a stable film, or not yet.
