@@ -34,8 +34,10 @@ class Fairing {
 
   /// Solves `rounds` times, of the order asked for or the next lower one that works. Returns that order.
   uint32_t solve(const FairOptions& options, std::vector<Vec3>& at);
-  /// Steps to the least energy, as long as they lead there. Returns whether any did.
-  bool leastEnergy(uint32_t order, uint32_t steps, std::vector<Vec3>& at);
+  /// Steps to the least variation of curvature, as long as they lead there. Returns whether any did.
+  bool leastVariation(uint32_t steps, std::vector<Vec3>& at);
+  /// Steps to the least bending, as long as each is shorter than the one before. Returns whether there were any.
+  bool leastBending(uint32_t steps, std::vector<Vec3>& at);
 
  private:
   void findNear();
@@ -102,7 +104,7 @@ uint32_t Fairing::solve(const FairOptions& options, std::vector<Vec3>& at) {
   return order;
 }
 
-bool Fairing::leastEnergy(uint32_t order, uint32_t steps, std::vector<Vec3>& at) {
+bool Fairing::leastVariation(uint32_t steps, std::vector<Vec3>& at) {
   std::vector<Vec3> best = at;
   double least = 0;
   bool isBetter = false;
@@ -110,7 +112,7 @@ bool Fairing::leastEnergy(uint32_t order, uint32_t steps, std::vector<Vec3>& at)
     if (!measure(at)) return false;
     FairSystem system(laplacian_, surface_.fixedVertices, work_);
     system.measure(at, near_);
-    const double now = system.energy(order);
+    const double now = system.variation();
     if (i > 0 && !(now < least && isTame(at))) {
       // Too far: half of the step, or none.
       if (++halvings > 2) break;
@@ -120,11 +122,35 @@ bool Fairing::leastEnergy(uint32_t order, uint32_t steps, std::vector<Vec3>& at)
     isBetter = isBetter || i > 0;
     least = now, best = at;
     double most;
-    if (i == steps || !system.step(order, at, most)) break;
+    if (i == steps || !system.step(3, at, most)) break;
     if (most < kLastStep * std::sqrt(1.0 / double(at.size()))) steps = i + 1;
   }
   at = best;
   return isBetter;
+}
+
+bool Fairing::leastBending(uint32_t steps, std::vector<Vec3>& at) {
+  std::vector<Vec3> from = at;
+  double shortest = kFarthest;
+  uint32_t done = 0;
+  while (done < steps) {
+    if (!measure(at)) return false;
+    FairSystem system(laplacian_, surface_.fixedVertices, work_);
+    system.measure(at, near_);
+    std::vector<Vec3> next = at;
+    double most;
+    const bool isGood = system.step(2, next, most) && isTame(next) && most < shortest;
+    if (!work_.going()) return false;
+    if (!isGood) {
+      // The last step led to no better place.
+      at = from;
+      break;
+    }
+    from.swap(at), at.swap(next);
+    shortest = most, ++done;
+    if (most < kLastStep * std::sqrt(1.0 / double(at.size()))) break;
+  }
+  return done > 0;
 }
 
 }  // namespace
@@ -141,7 +167,9 @@ Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairn
   Fairing fairing(surface, box.extent(), work);
   uint32_t order = fairing.solve(options, at);
   const uint32_t steps = options.stepsOf(order);
-  if (steps > 0 && !fairing.leastEnergy(order, steps, at) && options.rounds == 0) {
+  const bool isBetter = steps > 0 && (order == 2 ? fairing.leastBending(steps, at)
+                                                 : fairing.leastVariation(steps, at));
+  if (steps > 0 && !isBetter && options.rounds == 0) {
     // Something has to smooth it.
     FairOptions once = options;
     once.rounds = 1;

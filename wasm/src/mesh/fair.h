@@ -19,7 +19,7 @@ namespace sf {
 struct FairOptions {
   uint32_t order = 3;           // k: 1 least area, 2 least bending, 3 least variation of curvature
   uint32_t rounds = 3;          // how often weights are taken from the surface that came out
-  uint32_t bendingSteps = 0;    // k = 2: steps to the least bending, at most
+  uint32_t bendingSteps = 0;    // k = 2: steps to the least squared mean curvature, at most
   uint32_t curvatureSteps = 4;  // k = 3: steps to the least variation of mean curvature, at most
 
   /// How many steps there are after the solutions of order k.

@@ -158,15 +158,12 @@ void FairSystem::measure(ArrayView<const Vec3> x, ArrayView<const uint32_t> tria
   }
 }
 
-double FairSystem::energy(uint32_t order) const {
+double FairSystem::variation() const {
   double sum = 0;
-  for (uint32_t v = 0; v < curvature_.size(); ++v) {
-    if (order == 2) sum += laplacian_.mass[v] * curvature_[v] * curvature_[v];
-    for (uint32_t e = laplacian_.inner.starts[v]; order == 3 && e < laplacian_.inner.starts[v + 1];
-         ++e)
+  for (uint32_t v = 0; v < curvature_.size(); ++v)
+    for (uint32_t e = laplacian_.inner.starts[v]; e < laplacian_.inner.starts[v + 1]; ++e)
       sum += curvature_[v] * laplacian_.inner.values[e] *
              (curvature_[laplacian_.inner.columns[e]] - curvature_[v]);
-  }
   return sum;
 }
 
@@ -210,7 +207,7 @@ bool FairSystem::step(uint32_t order, ArrayView<Vec3> x, double& most) {
     return false;
   const SparseRows outer = bentLaplacian();
   SparseRows matrix;
-  if (!assemble(order, outer, matrix, charge)) return false;
+  if (!assemble(order, order == 2 ? laplacian_.whole : outer, matrix, charge)) return false;
   for (uint32_t v = 0; v < n; ++v) flow_[v] = {curvature_[v], 0, 0};
   if (order == 3) {
     multiply(laplacian_.inner, flow_, next_);
@@ -223,7 +220,7 @@ bool FairSystem::step(uint32_t order, ArrayView<Vec3> x, double& most) {
     const double h = curvature_[v];
     double sum = 0;
     if (order == 1) sum = laplacian_.mass[v] * h;
-    if (order == 2) sum = 0.5 * laplacian_.mass[v] * h * h * h;
+    if (order == 2) sum = 0.5 * laplacian_.mass[v] * h * h * h / laplacian_.unit;
     for (uint32_t e = outer.starts[v]; order > 1 && e < outer.starts[v + 1]; ++e)
       sum += outer.values[e] * flow_[outer.columns[e]].x;
     step[u] = {-sum, 0, 0};

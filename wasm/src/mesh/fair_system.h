@@ -29,12 +29,11 @@ class FairSystem {
   void measure(ArrayView<const Vec3> x, ArrayView<const uint32_t> triangles);
   /// The mean curvature at a vertex, times two; 0 on the boundary. After measure().
   double curvature(uint32_t v) const { return curvature_[v]; }
-  /// How much the surface bends, the integral of its squared curvature, for `order` 2; for 3 how much the curvature
-  /// varies, the integral of its squared gradient. After measure().
-  double energy(uint32_t order) const;
-  /// One step along the normals, of Gauss-Newton towards the least energy, or for `order` 1 of Newton towards a minimal
-  /// surface. After measure(x). False as solve, and for films that are not stable: the second variation of their area
-  /// has a negative direction.
+  /// How much the mean curvature varies over the surface: the integral of its squared gradient. After measure().
+  double variation() const;
+  /// One step along the normals, of the kind of Newton's: for `order` 1 to a minimal surface, for 2 to the least
+  /// bending, the integral of the squared mean curvature, for 3 to its least variation. After measure(x). False as
+  /// solve, and for films that are not stable: the second variation of their area has a negative direction.
   ///   x     [n] moved
   ///   most  out: the largest distance moved
   bool step(uint32_t order, ArrayView<Vec3> x, double& most);

@@ -67,10 +67,9 @@ Status smoothPatch(LocalSurface& surface, const RefineOptions& refining, const F
     status = refine(surface, fine, work);
     if (status != Status::Ok) return status;
     if (result.order > 0) finish.order = result.order;
-    if (fairing.stepsOf(result.order) > 0)
-      finish.rounds = 0;
-    else if (result.order > 0)
-      finish.rounds = fairing.rounds < 2 ? fairing.rounds : 2;
+    // Steps to the least variation begin from any surface, those to the least bending from a smooth one.
+    const uint32_t most = fairing.stepsOf(result.order) == 0 ? 2 : result.order == 2 ? 1 : 0;
+    if (result.order > 0 && fairing.rounds > most) finish.rounds = most;
   } else {
     const Status status = refine(surface, refining, work);
     if (status != Status::Ok) return status;
