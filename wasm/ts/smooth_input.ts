@@ -28,7 +28,7 @@ export function smoothWorkOf(given: Given<SmoothOptions>, { positions }: FlatMes
       density: amountOf('density', density, 100),
       maxNewVertices: amountOf('maxNewVertices', maxNewVertices),
     },
-    fixed: fixed === undefined ? new Uint32Array() : fixedOf(fixed, positions.length / 3, own),
+    fixed: fixed === undefined ? new Uint32Array() : fixedOf(fixed, positions.length / 3),
     boundaryNormals: boundaryNormals === undefined ? undefined : normalsOf(boundaryNormals, own),
   };
 }
@@ -38,13 +38,13 @@ function normalsOf(value: unknown, own: boolean): Float64Array {
   return arrayOf('Float64Array', value, own, 'bad-normals', 'boundaryNormals', what, (length) => length % 3 === 0);
 }
 
-/** Numbers of vertices, of which there are `count`. */
-function fixedOf(value: unknown, count: number, own: boolean): Uint32Array {
-  const given = guarded('bad-option', 'fixed', () => viewOf(['Uint32Array'], value));
-  const list = given ?? Uint32Array.from(indicesOf('fixed', value));
+/** Different numbers of vertices, of which there are `count`, as a copy. */
+function fixedOf(value: unknown, count: number): Uint32Array {
+  const view = guarded('bad-option', 'fixed', () => viewOf(['Uint32Array'], value));
+  const list = Uint32Array.from(indicesOf('fixed', view ? Array.from(view) : value));
   const wrong = list.findIndex((vertex) => vertex >= count);
-  if (wrong >= 0) throw new SoapfilmError('bad-option', `\`fixed[${wrong}]\` is vertex ${list[wrong]}, and there are ${count}`);
-  return own ? list.slice() : list;
+  if (wrong < 0) return list;
+  throw new SoapfilmError('bad-option', `\`fixed[${wrong}]\` is vertex ${list[wrong]}, and there are ${count}`);
 }
 
 /** The surface from the core's arrays. */
