@@ -1,5 +1,5 @@
 // Minimal surfaces that are known by formulas, for soap films on their boundaries: what films are tested and measured
-// against. Each has its boundary as `loops` of points that are on it exactly, a `radius`, how many vertices make it
+// against. Each has its boundary as `loops` of points that are on it exactly, a `radius`, `options` by which films have
 // about 5 000 triangles, and `distance(x, y, z)` of a point from it, to first order.
 const kTurn = 2 * Math.PI;
 
@@ -19,7 +19,7 @@ function catenoid(height = 0.8, n = 256) {
     name: 'catenoid',
     loops: [ring(-height / 2), ring(height / 2)],
     radius: 1,
-    maxNewVertices: 2300,
+    options: { maxNewVertices: 2450 },
     distance: (x, y, z) => Math.abs(Math.hypot(x, y) - low * Math.cosh(z / low)) / Math.hypot(1, slope(z)),
   };
 }
@@ -40,7 +40,7 @@ function scherk(half = (0.9 * Math.PI) / 2, side = 64) {
     name: 'Scherk',
     loops: [square.map(([x, y]) => [x, y, height(x, y)])],
     radius: half,
-    maxNewVertices: 2450,
+    options: { density: 0.8 },
     distance: (x, y, z) => {
       const [cx, cy, ez] = [Math.cos(x), Math.cos(y), Math.exp(z)];
       return Math.abs(ez * cy - cx) / Math.hypot(Math.sin(x), ez * Math.sin(y), ez * cy);
@@ -56,7 +56,7 @@ function enneper(radius = 0.8, n = 256) {
     name: 'Enneper',
     loops: [around(n, (t) => at(radius * Math.cos(t), radius * Math.sin(t)))],
     radius,
-    maxNewVertices: 2450,
+    options: { density: 0.7 },
     // The nearest point by Newton's method; the parameters are conformal.
     distance: (x, y, z) => {
       let [u, v] = [x, -y];
