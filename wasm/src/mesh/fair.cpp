@@ -52,7 +52,7 @@ class Fairing {
   const LocalSurface& surface_;
   Work& work_;
   std::vector<Clamp> clamps_;
-  std::vector<uint32_t> near_;  // [3m] triangles that the system knows of
+  TriangleMesh near_;  // triangles that the system knows of
   std::vector<double> flat_;
   Laplacian laplacian_;
 };
@@ -61,7 +61,7 @@ class Fairing {
 void Fairing::findNear() {
   const std::vector<uint32_t>& t = surface_.triangles;
   if (!clamps_.empty()) {
-    near_ = t;
+    near_.corners = t;
     return;
   }
   std::vector<uint8_t> isNear(surface_.positions.size() / 3, 0);
@@ -76,12 +76,14 @@ void Fairing::findNear() {
   }
   for (size_t h = 0; h < t.size(); h += 3)
     if (isNear[t[h]] || isNear[t[h + 1]] || isNear[t[h + 2]])
-      near_.insert(near_.end(), {t[h], t[h + 1], t[h + 2]});
+      near_.corners.insert(near_.corners.end(), {t[h], t[h + 1], t[h + 2]});
 }
 
 bool Fairing::measure(ArrayView<const Vec3> at) {
   flat_.clear();
   for (const Vec3& p : at) flat_.insert(flat_.end(), {p.x, p.y, p.z});
+  if (near_.twins.empty() && !findTwins(near_.corners, uint32_t(at.size()), work_, near_.twins))
+    return false;
   return buildLaplacian(flat_, near_, clamps_, work_, laplacian_);
 }
 
@@ -111,7 +113,7 @@ bool Fairing::leastVariation(uint32_t steps, std::vector<Vec3>& at) {
   for (uint32_t i = 0, halvings = 0; i <= steps; ++i) {
     if (!measure(at)) return false;
     FairSystem system(laplacian_, surface_.fixedVertices, work_);
-    system.measure(at, near_);
+    system.measure(at, near_.corners);
     const double now = system.variation();
     if (i > 0 && !(now < least && isTame(at))) {
       // Too far: half of the step, or none.
@@ -136,7 +138,7 @@ bool Fairing::leastBending(uint32_t steps, std::vector<Vec3>& at) {
   while (done < steps) {
     if (!measure(at)) return false;
     FairSystem system(laplacian_, surface_.fixedVertices, work_);
-    system.measure(at, near_);
+    system.measure(at, near_.corners);
     std::vector<Vec3> next = at;
     double most;
     const bool isGood = system.step(2, next, most) && isTame(next) && most < shortest;
@@ -161,7 +163,7 @@ Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairn
   const UnitBox box(surface.positions);
   if (n <= surface.fixedVertices || box.isPoint()) return work.status();
   Charge charge(work);
-  if (!charge.add(n * 300 + surface.triangles.size() * 8)) return work.status();
+  if (!charge.add(n * 300 + surface.triangles.size() * 16)) return work.status();
   std::vector<Vec3> at(n);
   for (size_t v = 0; v < n; ++v) at[v] = box.in(&surface.positions[3 * v]);
   Fairing fairing(surface, box.extent(), work);
@@ -192,7 +194,7 @@ bool roughness(const LocalSurface& surface, Work& work, double& result) {
   if (surface.fixedTriangles == 0 || box.isPoint()) return work.going();
   const size_t n = surface.positions.size() / 3;
   Charge charge(work);
-  if (!charge.add(n * 150 + size_t(surface.fixedTriangles) * 12)) return false;
+  if (!charge.add(n * 150 + size_t(surface.fixedTriangles) * 36)) return false;
   std::vector<Vec3> at(n);
   std::vector<double> flat;
   for (size_t v = 0; v < n; ++v) {
@@ -201,7 +203,11 @@ bool roughness(const LocalSurface& surface, Work& work, double& result) {
   }
   const ArrayView<const uint32_t> around = surroundings(surface);
   Laplacian laplacian;
-  if (!buildLaplacian(flat, around, {}, work, laplacian)) return false;
+  TriangleMesh mesh;
+  mesh.corners.assign(around.begin(), around.end());
+  if (!findTwins(around, uint32_t(n), work, mesh.twins) ||
+      !buildLaplacian(flat, mesh, {}, work, laplacian))
+    return false;
   FairSystem system(laplacian, uint32_t(n), work);
   system.measure(at, around);
   double sum = 0;

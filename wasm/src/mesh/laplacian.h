@@ -13,12 +13,13 @@
 #include "base/work.h"
 #include "mesh/local_surface.h"
 #include "mesh/sparse_cholesky.h"
+#include "triangles/triangle_mesh.h"
 
 namespace sf {
 
 struct Laplacian {
   /// Positive semidefinite, symmetric, every row with its diagonal: (L x)_i = sum of w_ij (x_i - x_j), which is
-  /// the gradient of the area at vertex i. All w_ij >= 0, but for rounding.
+  /// the gradient of the area at vertex i. All w_ij >= 0, but for rounding. A row may have a column several times.
   SparseRows whole;
   /// The same over triangles with no vertex on the boundary.
   SparseRows inner;
@@ -31,10 +32,10 @@ struct Laplacian {
 
 /// Builds it. O(m) time but for flips, of which there are few on meshes that are nearly Delaunay.
 ///   positions  [3n]
-///   triangles  [3m] consistently wound; degenerate ones do no harm
-///   clamps     all triangles of their vertices are among these
+///   mesh    corners, consistently wound, and twins; degenerate triangles do no harm
+///   clamps  all triangles of their vertices are in the mesh
 /// False when the work ended.
-bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t> triangles,
+bool buildLaplacian(ArrayView<const double> positions, const TriangleMesh& mesh,
                     ArrayView<const Clamp> clamps, Work& work, Laplacian& result);
 
 }  // namespace sf
