@@ -41,7 +41,7 @@ class Fairing {
 
  private:
   void findNear();
-  bool measure(ArrayView<const Vec3> at);
+  bool measure(ArrayView<const Vec3> at, uint32_t order);
   bool isTame(ArrayView<const Vec3> at) const {
     for (const Vec3& p : at)
       if (!(std::fabs(p.x) < kFarthest && std::fabs(p.y) < kFarthest && std::fabs(p.z) < kFarthest))
@@ -79,19 +79,19 @@ void Fairing::findNear() {
       near_.corners.insert(near_.corners.end(), {t[h], t[h + 1], t[h + 2]});
 }
 
-bool Fairing::measure(ArrayView<const Vec3> at) {
+bool Fairing::measure(ArrayView<const Vec3> at, uint32_t order) {
   flat_.clear();
   for (const Vec3& p : at) flat_.insert(flat_.end(), {p.x, p.y, p.z});
   if (near_.twins.empty() && !findTwins(near_.corners, uint32_t(at.size()), work_, near_.twins))
     return false;
-  return buildLaplacian(flat_, near_, clamps_, work_, laplacian_);
+  return buildLaplacian(flat_, near_, clamps_, order == 3, work_, laplacian_);
 }
 
 uint32_t Fairing::solve(const FairOptions& options, std::vector<Vec3>& at) {
   const std::vector<Vec3> before = at;
   uint32_t order = options.order < 3 ? options.order : 3;
   for (uint32_t round = 0; round < options.rounds && order > 0;) {
-    if (!measure(at)) return 0;
+    if (!measure(at, order)) return 0;
     FairSystem system(laplacian_, surface_.fixedVertices, work_);
     const bool isGood = system.solve(order, at) && isTame(at);
     if (!work_.going()) return 0;
@@ -111,7 +111,7 @@ bool Fairing::leastVariation(uint32_t steps, std::vector<Vec3>& at) {
   double least = 0;
   bool isBetter = false;
   for (uint32_t i = 0, halvings = 0; i <= steps; ++i) {
-    if (!measure(at)) return false;
+    if (!measure(at, 3)) return false;
     FairSystem system(laplacian_, surface_.fixedVertices, work_);
     system.measure(at, near_.corners);
     const double now = system.variation();
@@ -136,7 +136,7 @@ bool Fairing::leastBending(uint32_t steps, std::vector<Vec3>& at) {
   double shortest = kFarthest;
   uint32_t done = 0;
   while (done < steps) {
-    if (!measure(at)) return false;
+    if (!measure(at, 2)) return false;
     FairSystem system(laplacian_, surface_.fixedVertices, work_);
     system.measure(at, near_.corners);
     std::vector<Vec3> next = at;
@@ -206,7 +206,7 @@ bool roughness(const LocalSurface& surface, Work& work, double& result) {
   TriangleMesh mesh;
   mesh.corners.assign(around.begin(), around.end());
   if (!findTwins(around, uint32_t(n), work, mesh.twins) ||
-      !buildLaplacian(flat, mesh, {}, work, laplacian))
+      !buildLaplacian(flat, mesh, {}, false, work, laplacian))
     return false;
   FairSystem system(laplacian, uint32_t(n), work);
   system.measure(at, around);

@@ -157,7 +157,7 @@ void assemble(const Intrinsic& surface, uint32_t n, ArrayView<const uint8_t> cou
 }  // namespace
 
 bool buildLaplacian(ArrayView<const double> positions, const TriangleMesh& mesh,
-                    ArrayView<const Clamp> clamps, Work& work, Laplacian& result) {
+                    ArrayView<const Clamp> clamps, bool withInner, Work& work, Laplacian& result) {
   const uint32_t n = uint32_t(positions.size() / 3), m = mesh.triangleCount();
   Charge charge(work);
   // Corners, twins, lengths, cotangents, areas, and the stack.
@@ -198,7 +198,7 @@ bool buildLaplacian(ArrayView<const double> positions, const TriangleMesh& mesh,
   for (uint32_t v = 0; v < n; ++v)
     result.mass[v] = std::fmax(std::fmax(result.mass[v], 0.2 * third[v]) / mean, 1e-6);
   assemble(surface, n, areAll, result.whole);
-  assemble(surface, n, areInner, result.inner);
+  if (withInner) assemble(surface, n, areInner, result.inner);
   return work.tick(150 * uint64_t(m));
 }
 

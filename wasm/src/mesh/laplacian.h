@@ -21,7 +21,7 @@ struct Laplacian {
   /// Positive semidefinite, symmetric, every row with its diagonal: (L x)_i = sum of w_ij (x_i - x_j), which is
   /// the gradient of the area at vertex i. All w_ij >= 0, but for rounding. A row may have a column several times.
   SparseRows whole;
-  /// The same over triangles with no vertex on the boundary.
+  /// The same over triangles with no vertex on the boundary, if asked for.
   SparseRows inner;
   std::vector<double> mass;  // [n] area about each vertex, > 0, in units
   double unit = 1;           // the mean area about a vertex
@@ -34,8 +34,9 @@ struct Laplacian {
 ///   positions  [3n]
 ///   mesh    corners, consistently wound, and twins; degenerate triangles do no harm
 ///   clamps  all triangles of their vertices are in the mesh
+///   withInner  whether the inner matrix is needed
 /// False when the work ended.
 bool buildLaplacian(ArrayView<const double> positions, const TriangleMesh& mesh,
-                    ArrayView<const Clamp> clamps, Work& work, Laplacian& result);
+                    ArrayView<const Clamp> clamps, bool withInner, Work& work, Laplacian& result);
 
 }  // namespace sf

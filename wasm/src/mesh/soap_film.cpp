@@ -76,7 +76,7 @@ Status relaxToFilm(LocalSurface& surface, const FilmOptions& options, Work& work
       mesh.corners = surface.triangles;
       if (!findTwins(mesh.corners, uint32_t(n), work, mesh.twins)) return work.status();
     }
-    if (!buildLaplacian(flat, mesh, {}, work, laplacian)) return work.status();
+    if (!buildLaplacian(flat, mesh, {}, false, work, laplacian)) return work.status();
     FairSystem system(laplacian, surface.fixedVertices, work);
     before = at;
     double most = 0;
