@@ -85,7 +85,7 @@ void measure(ArrayView<const double> positions, Intrinsic& surface) {
   for (uint32_t h = 0; h < corners.size(); ++h) {
     const double slack = surface.lengths[nextInTriangle(h)] + surface.lengths[prevInTriangle(h)] -
                          surface.lengths[h];
-    most = std::fmax(most, margin - slack);
+    if (margin - slack > most) most = margin - slack;
   }
   if (most > 0)
     for (double& length : surface.lengths) length += most;

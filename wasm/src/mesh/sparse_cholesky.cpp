@@ -131,8 +131,7 @@ bool SparseCholesky::dissect(const SparseRows& matrix, ArrayView<const Vec3> pla
   Vec3 low = places[set[0].unknown], high = low;
   for (const Place& p : set) {
     const Vec3 q = places[p.unknown];
-    low = {std::fmin(low.x, q.x), std::fmin(low.y, q.y), std::fmin(low.z, q.z)};
-    high = {std::fmax(high.x, q.x), std::fmax(high.y, q.y), std::fmax(high.z, q.z)};
+    low = lowest(low, q), high = highest(high, q);
   }
   const Vec3 extent = high - low;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
