@@ -467,6 +467,34 @@ describe('attributes', () => {
     }
   });
 
+  test('texture coordinates where charts meet at the rim: 0 and said; elsewhere they go on', () => {
+    // Two charts, that meet where the sphere is cut by a plane through the first cap.
+    const soup = { positions: new Float64Array(3 * kTwoCaps.faces.length), faces: kTwoCaps.faces.map((_, i) => i) };
+    const uv = new Float32Array(2 * kTwoCaps.faces.length);
+    for (let f = 0; f < kTwoCaps.faces.length; f += 3) {
+      const corners = [...kTwoCaps.faces.subarray(f, f + 3)].map((v) => toPoint([...kTwoCaps.positions.subarray(3 * v, 3 * v + 3)]));
+      const shift = 10 * Number(corners.reduce((sum, [x]) => sum + x, 0) > -0.6);
+      corners.forEach((p, k) => {
+        soup.positions.set(p, 3 * (f + k));
+        uv.set([p[0] + shift, p[1]], 2 * (f + k));
+      });
+    }
+    const colour = Float32Array.from(uv, (x) => x / 20);
+    const attributes = { uv: { data: uv, size: 2 }, colour: { data: colour, size: 2 } };
+    const { mesh, holes, oldFaces } = fillHoles({ ...soup, attributes }, { weld: 0 });
+    const { oldVertices } = fillHoles(soup, { weld: 0 });
+    const data = mesh.attributes?.uv.data ?? new Float32Array();
+    const isCut = holes.map(({ faces: [from, to] }) => {
+      const inside = [...mesh.faces.subarray(3 * from, 3 * to)].filter((v) => v >= oldVertices);
+      return inside.every((v) => data[2 * v] === 0 && data[2 * v + 1] === 0);
+    });
+    expect(holes.map(({ attributesLeft }) => attributesLeft)).toEqual(isCut.map((is) => (is ? ['uv'] : undefined)));
+    expect(isCut).toContain(true);
+    expect(isCut).toContain(false);
+    expect(oldFaces).toBe(soup.faces.length / 3);
+    expect(mesh.attributes?.colour.data.subarray(2 * oldVertices).every((x) => x !== 0)).toBe(true);
+  });
+
   test('not finite, or of another length: bad-attributes, with their name', () => {
     for (const data of [new Float32Array(count - 1), new Float32Array(count).fill(NaN)]) {
       const error = errorOf(() => fillHoles({ ...kTwoCaps, attributes: { one: { data, size: 1 } } }));
@@ -481,6 +509,30 @@ describe('limits and listeners', () => {
   const many = cut(sphere(40), (p) => {
     const directions = [0, 1, 2].flatMap((axis) => [-1, 1].map((side) => toPoint([0, 1, 2].map((i) => (i === axis ? side : 0)))));
     return directions.some((direction) => angle(p, direction) < 0.5);
+  });
+
+  test('maxSecondsPerHole: a hole that takes longer is given up or left coarse, and the others are filled', async () => {
+    // A ring that takes long, for all pairs of its vertices are looked at, beside holes that take no time.
+    const large = cut(sphere(24), (p) => angle(p, kUp) < 0.9 && angle(p, kUp) > 0.4);
+    const { loops } = findHoles(large);
+    const mesh = together(large, kTwoCaps);
+    const options: FillOptions = { candidates: 'all', density: 1, maxSecondsPerHole: 0.05 };
+    for (const { holes, closed } of [fillHoles(mesh, options), await film.fillHoles(mesh, options)]) {
+      const [slow, ...quick] = holes;
+      expect(slow.reason).toBe('time-limit');
+      expect(slow.optimal).toBe(false);
+      expect(['filled', 'self-intersecting', 'failed']).toContain(slow.status);
+      expect(closed).toBe(slow.status !== 'failed');
+      if (slow.status !== 'failed') expect(slow.faces[1] - slow.faces[0]).toBe(loops.reduce((sum, { vertices }) => sum + vertices.length, 0));
+      expect(quick).toHaveLength(2);
+      // At most: on a slow machine even these may take too long.
+      for (const { reason, status } of quick) expect(reason === undefined ? status : reason).toBe(reason === undefined ? 'filled' : 'time-limit');
+    }
+    expect(errorOf(() => fillHoles(mesh, { maxSecondsPerHole: -1 }))).toMatchObject({ code: 'bad-option' });
+  });
+
+  test('maxSecondsPerHole that is never over: as without', () => {
+    expect(fillHoles(kTwoCaps, { maxSecondsPerHole: 1e6 })).toEqual(fillHoles(kTwoCaps));
   });
 
   test('maxSeconds 0: time-limit, and the next call works', async () => {

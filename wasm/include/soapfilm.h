@@ -74,6 +74,9 @@ typedef struct SfPatchSettings {
 typedef struct SfFilledFacts {
   SF_FILLED_FACTS_RECORD(SF_FIELD)
 } SfFilledFacts;
+typedef struct SfRimSplit {
+  SF_RIM_SPLIT_RECORD(SF_FIELD)
+} SfRimSplit;
 typedef struct SfSmoothSettings {
   SF_SMOOTH_SETTINGS(SF_FIELD)
 } SfSmoothSettings;
@@ -120,6 +123,10 @@ typedef struct SfResult SfResult;
 /// Imported from the host as `env.sf_host_progress`; native programs define it themselves. Called about every
 /// millisecond of work. Returns nonzero to go on, 0 to stop the call under way.
 int32_t sf_host_progress(double fraction, double bestCost, double lowerBound);
+
+/// Imported from the host as `env.sf_host_seconds`: seconds since some moment, the same during a call. Asked for only
+/// where a part of a call has a time limit of its own.
+double sf_host_seconds(void);
 
 /// Imported from the host as `env.sf_host_result`. Called with each better result of the call under way. The
 /// result and its arrays are the core's, and valid until this returns.
@@ -204,12 +211,14 @@ SF_API(sf_session_close) SfStatus sf_session_close(uint32_t session);
 /// Finds the holes of a triangle mesh, and groups their rims (Zou, Ju, Carr 2013, sec. 5, 6).
 ///   positions  [3 * vertexCount] xyz
 ///   faces      [3 * faceCount]
+///   keeps      whether a copy of the mesh stays in a session, for sf_fill_holes
 ///   maxBytes   memory limit
 ///   where      out: the vertex at fault; for BadMesh, the face as `vertex`
 ///   result     out: SF_HOLES_ARRAYS; null unless the status is Ok
 SF_API(sf_find_holes)
 SfStatus sf_find_holes(const double* positions, uint32_t vertexCount, const uint32_t* faces,
-                       uint32_t faceCount, double maxBytes, SfPlace* where, SfResult** result);
+                       uint32_t faceCount, uint32_t keeps, double maxBytes, SfPlace* where,
+                       SfResult** result);
 
 /// Welds each vertex to the first one within `radius` that was not welded itself; 0: at the same place.
 ///   radius   finite, not negative; the rest as for sf_find_holes
@@ -226,18 +235,21 @@ SF_API(sf_find_crossings)
 SfStatus sf_find_crossings(const double* positions, uint32_t vertexCount, const uint32_t* faces,
                            uint32_t faceCount, double maxBytes, SfPlace* where, SfResult** result);
 
-/// Fills holes of a triangle mesh.
-///   positions, vertexCount, faces, faceCount, maxBytes   as for sf_find_holes
+/// Fills holes of a mesh that is kept.
+///   session       of sf_find_holes
 ///   groupStarts   [groupCount + 1] from 0, increasing: where the loops of each hole begin
 ///   groupLoops    numbers of loops, as sf_find_holes has them, each at most once; else BadOption
 ///   settings      [groupCount] one for each hole
-///   where         out: as for sf_find_holes
+///   maxBytes      memory limit, what is kept included
+///   where         out: no place
 ///   result        out: SF_FILL_ARRAYS; null unless the status is Ok
 SF_API(sf_fill_holes)
-SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount, const uint32_t* faces,
-                       uint32_t faceCount, const uint32_t* groupStarts, uint32_t groupCount,
+SfStatus sf_fill_holes(uint32_t session, const uint32_t* groupStarts, uint32_t groupCount,
                        const uint32_t* groupLoops, const SfPatchSettings* settings, double maxBytes,
                        SfPlace* where, SfResult** result);
+
+/// Ends the session of that number, if there is one. A later session may get the number. Returns Ok.
+SF_API(sf_close_mesh) SfStatus sf_close_mesh(uint32_t session);
 
 /// Smooths a surface between its boundary: a soap film, or a plate.
 ///   positions, vertexCount, triangles, triangleCount   manifold, oriented, with a boundary

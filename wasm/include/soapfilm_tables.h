@@ -199,6 +199,7 @@
   X(uint32_t, groupStarts, "[g+1] where the loops of each group begin")                   \
   X(uint32_t, groupLoops, "[k] the loops of all groups, the outer rim first")             \
   X(SfGroupFacts, groupFacts, "[g]")                                                      \
+  X(uint32_t, session, "[1] the session's number, if the mesh is kept")                   \
   X(SfDefectCounts, defects, "[d] what is wrong with the mesh, a kind at most once")      \
   X(uint32_t, defectPlaces, "for each defect its faces, its edges as pairs, its vertices")
 
@@ -253,17 +254,18 @@
   X(Curvature, 2, "curvature") \
   X(Auto, 3, "auto")
 
-#define SF_PATCH_SETTINGS(X)                                                                   \
-  X(double, areaWeight, "per square unit; NaN: as in SF_SPAN_SETTINGS")                        \
-  X(double, perimeterWeight, "per unit of triangle perimeter")                                 \
-  X(double, dihedralWeight, "per radian")                                                      \
-  X(double, space, "a choice of SF_SPACE_CHOICES, but not Given")                              \
-  X(double, fairing, "a choice of SF_FAIRING_CHOICES")                                         \
-  X(double, density, "how much denser than its surroundings the patch is; 0: as spanned")      \
-  X(double, maxNewVertices, "most vertices that refining adds")                                \
-  X(double, crease,                                                                            \
-    "edges between faces that differ by more, in radians, go on through the hole; 0: none do") \
-  X(double, inFloats, "1 if coordinates of new vertices are rounded to single precision, else 0")
+#define SF_PATCH_SETTINGS(X)                                                                      \
+  X(double, areaWeight, "per square unit; NaN: as in SF_SPAN_SETTINGS")                           \
+  X(double, perimeterWeight, "per unit of triangle perimeter")                                    \
+  X(double, dihedralWeight, "per radian")                                                         \
+  X(double, space, "a choice of SF_SPACE_CHOICES, but not Given")                                 \
+  X(double, fairing, "a choice of SF_FAIRING_CHOICES")                                            \
+  X(double, density, "how much denser than its surroundings the patch is; 0: as spanned")         \
+  X(double, maxNewVertices, "most vertices that refining adds")                                   \
+  X(double, crease,                                                                               \
+    "edges between faces that differ by more, in radians, go on through the hole; 0: none do")    \
+  X(double, inFloats, "1 if coordinates of new vertices are rounded to single precision, else 0") \
+  X(double, maxSeconds, "after which the hole is given up, or left as it is; or infinity")
 
 #define SF_FILL_STATUS_CHOICES(X)             \
   X(Filled, 0, "filled")                      \
@@ -279,14 +281,22 @@
   X(TooLarge, 5, "too-large")                 \
   X(InsertedVertices, 6, "inserted-vertices") \
   X(Stitched, 7, "stitched")                  \
-  X(OpposedRims, 8, "opposed-rims")
+  X(OpposedRims, 8, "opposed-rims")           \
+  X(TimeLimit, 9, "time-limit")
 
-#define SF_FILL_ARRAYS(X)                                                      \
-  X(double, positions, "[3a] the vertices of all patches, numbered from n on") \
-  X(uint32_t, faces, "[3b] the faces of all patches")                          \
-  X(SfFilledFacts, holes, "[g] by groups")                                     \
-  X(uint32_t, pairs,                                                           \
-    "[2p] by groups: faces of the filled mesh that intersect, but for those of two patches")
+#define SF_FILL_ARRAYS(X)                                                                          \
+  X(double, positions, "[3a] the vertices of all patches, numbered from n on")                     \
+  X(uint32_t, faces, "[3b] the faces of all patches")                                              \
+  X(SfFilledFacts, holes, "[g] by groups")                                                         \
+  X(uint32_t, pairs,                                                                               \
+    "[2p] by groups: faces of the filled mesh that intersect, but for those of two patches")       \
+  X(SfRimSplit, splits, "vertices to be put on rims, for holes that failed with InsertedVertices") \
+  X(double, splitParameters, "for each split: at (1 - parameter) tail + parameter head")
+
+#define SF_RIM_SPLIT_RECORD(X)                \
+  X(uint32_t, face, "the face along the rim") \
+  X(uint32_t, tail, "the ends of the edge")   \
+  X(uint32_t, head, "")
 
 #define SF_FILLED_FACTS_RECORD(X)                                                 \
   X(double, status, "a choice of SF_FILL_STATUS_CHOICES")                         \
@@ -300,7 +310,8 @@
   X(double, movedLess, "share of the fairing that was taken back")                \
   X(double, firstFace, "its first face in the filled mesh")                       \
   X(double, endFace, "the one after its last")                                    \
-  X(double, pairs, "how many pairs of faces intersect")
+  X(double, pairs, "how many pairs of faces intersect")                           \
+  X(double, splits, "how many vertices are to be put on its rims")
 
 /* sf_smooth_surface */
 

@@ -28,10 +28,7 @@ export function attributesOf(given: unknown, vertices: number, own: boolean): At
 
 /** The attributes of the vertices that were the first at their places. */
 export function weldedAttributes(attributes: Attributes, vertexMap: Uint32Array, count: number): Attributes {
-  const first = new Int32Array(count).fill(-1);
-  vertexMap.forEach((to, from) => {
-    if (first[to] < 0) first[to] = from;
-  });
+  const first = firstsOf(vertexMap, count);
   return mapped(attributes, ({ data, size }) => {
     const kept = new Float32Array(size * count);
     first.forEach((from, to) => {
@@ -39,6 +36,36 @@ export function weldedAttributes(attributes: Attributes, vertexMap: Uint32Array,
     });
     return { data: kept, size };
   });
+}
+
+/** By names, for each welded vertex: 1 where texture coordinates are not one, since charts meet there. */
+export type Seams = Readonly<Record<string, Uint8Array>>;
+
+/** Names that texture coordinates go by. */
+const kTextureName = /^(uv|texcoord|st$)/i;
+
+export function seamsOf(attributes: Attributes, vertexMap: Uint32Array, count: number): Seams {
+  const charted = Object.entries(attributes).filter(([name, { size }]) => size === 2 && kTextureName.test(name));
+  const first = firstsOf(vertexMap, count);
+  return Object.fromEntries(
+    charted.map(([name, { data }]) => {
+      const seams = new Uint8Array(count);
+      vertexMap.forEach((to, from) => {
+        const differs = data[2 * from] !== data[2 * first[to]] || data[2 * from + 1] !== data[2 * first[to] + 1];
+        if (differs) seams[to] = 1;
+      });
+      return [name, seams];
+    }),
+  );
+}
+
+/** By welded vertices: the first that each was before. */
+function firstsOf(vertexMap: Uint32Array, count: number): Int32Array {
+  const first = new Int32Array(count).fill(-1);
+  vertexMap.forEach((to, from) => {
+    if (first[to] < 0) first[to] = from;
+  });
+  return first;
 }
 
 /** A step that changes nothing by more than this share of what there is, is the last. */

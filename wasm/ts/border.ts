@@ -414,6 +414,8 @@ export interface HolesArrays {
   readonly groupLoops: Uint32Array;
   /** GroupFacts: [g] */
   readonly groupFacts: Float64Array;
+  /** [1] the session's number, if the mesh is kept */
+  readonly session: Uint32Array;
   /** DefectCounts: [d] what is wrong with the mesh, a kind at most once */
   readonly defects: Uint32Array;
   /** for each defect its faces, its edges as pairs, its vertices */
@@ -427,8 +429,9 @@ export const readHolesArrays = (array: ArrayReader): HolesArrays => ({
   groupStarts: array(3, Uint32Array),
   groupLoops: array(4, Uint32Array),
   groupFacts: array(5, Float64Array),
-  defects: array(6, Uint32Array),
-  defectPlaces: array(7, Uint32Array),
+  session: array(6, Uint32Array),
+  defects: array(7, Uint32Array),
+  defectPlaces: array(8, Uint32Array),
 });
 
 export interface LoopFacts {
@@ -543,6 +546,8 @@ export interface PatchSettings {
   readonly crease: number;
   /** 1 if coordinates of new vertices are rounded to single precision, else 0 */
   readonly inFloats: number;
+  /** after which the hole is given up, or left as it is; or infinity */
+  readonly maxSeconds: number;
 }
 
 export const packPatchSettings = (settings: PatchSettings): Float64Array =>
@@ -556,11 +561,12 @@ export const packPatchSettings = (settings: PatchSettings): Float64Array =>
     settings.maxNewVertices,
     settings.crease,
     settings.inFloats,
+    settings.maxSeconds,
   );
 
 export const kFillStatusChoices = ['filled', 'self-intersecting', 'failed'] as const;
 
-export const kFillReasonChoices = ['none', 'no-surface', 'rims-intersect', 'repeated-vertex', 'duplicate-face', 'too-large', 'inserted-vertices', 'stitched', 'opposed-rims'] as const;
+export const kFillReasonChoices = ['none', 'no-surface', 'rims-intersect', 'repeated-vertex', 'duplicate-face', 'too-large', 'inserted-vertices', 'stitched', 'opposed-rims', 'time-limit'] as const;
 
 export interface FillArrays {
   /** [3a] the vertices of all patches, numbered from n on */
@@ -571,6 +577,10 @@ export interface FillArrays {
   readonly holes: Float64Array;
   /** [2p] by groups: faces of the filled mesh that intersect, but for those of two patches */
   readonly pairs: Uint32Array;
+  /** RimSplit: vertices to be put on rims, for holes that failed with InsertedVertices */
+  readonly splits: Uint32Array;
+  /** for each split: at (1 - parameter) tail + parameter head */
+  readonly splitParameters: Float64Array;
 }
 
 export const readFillArrays = (array: ArrayReader): FillArrays => ({
@@ -578,6 +588,26 @@ export const readFillArrays = (array: ArrayReader): FillArrays => ({
   faces: array(1, Uint32Array),
   holes: array(2, Float64Array),
   pairs: array(3, Uint32Array),
+  splits: array(4, Uint32Array),
+  splitParameters: array(5, Float64Array),
+});
+
+export interface RimSplit {
+  /** the face along the rim */
+  readonly face: number;
+  /** the ends of the edge */
+  readonly tail: number;
+  readonly head: number;
+}
+
+/** How many numbers of an array make one. */
+export const kRimSplitLength = 3;
+
+/** The one that begins at index `at`. */
+export const readRimSplit = (from: ArrayLike<number>, at = 0): RimSplit => ({
+  face: from[at],
+  tail: from[at + 1],
+  head: from[at + 2],
 });
 
 export interface FilledFacts {
@@ -605,10 +635,12 @@ export interface FilledFacts {
   readonly endFace: number;
   /** how many pairs of faces intersect */
   readonly pairs: number;
+  /** how many vertices are to be put on its rims */
+  readonly splits: number;
 }
 
 /** How many numbers of an array make one. */
-export const kFilledFactsLength = 12;
+export const kFilledFactsLength = 13;
 
 /** The one that begins at index `at`. */
 export const readFilledFacts = (from: ArrayLike<number>, at = 0): FilledFacts => ({
@@ -624,6 +656,7 @@ export const readFilledFacts = (from: ArrayLike<number>, at = 0): FilledFacts =>
   firstFace: from[at + 9],
   endFace: from[at + 10],
   pairs: from[at + 11],
+  splits: from[at + 12],
 });
 
 export const kSurfaceKindChoices = ['soap-film', 'thin-plate', 'curvature'] as const;

@@ -1,9 +1,9 @@
-// Holes, once the arguments are checked: asks the core, and hands on its arrays. Threads need only this half.
-import { readCrossingsArrays, readFillArrays, readHolesArrays, readWeldArrays, type FillArrays, type HolesArrays } from './border.js';
+// Meshes in the core, once the arguments are checked: asks it, and hands on its arrays. Threads need only this half.
+import { readCrossingsArrays, readFillArrays, readHolesArrays, readWeldArrays, type ArrayReader, type FillArrays, type HolesArrays } from './border.js';
 import { meshError } from './messages.js';
 import type { Limits } from './options.js';
-import { callCore, kDefaultMemoryBytes, shared, type CoreArgument } from './runtime.js';
-import type { HoleOptions, MeshAttribute, ProgressListener } from './types.js';
+import { callCore, Home, isLarge, kDefaultMemoryBytes, shared, type CoreArgument, type Watch } from './runtime.js';
+import type { MeshAttribute, ProgressListener } from './types.js';
 
 /** A mesh whose arrays are of the right kinds. */
 export interface FlatMesh {
@@ -14,6 +14,9 @@ export interface FlatMesh {
   readonly attributes?: Readonly<Record<string, MeshAttribute>>;
 }
 
+/** The part of a mesh that the core knows. */
+export type BareMesh = Pick<FlatMesh, 'positions' | 'faces'>;
+
 /** Groups of loops to fill, and the settings of each. */
 export interface PatchWork {
   readonly starts: Uint32Array;
@@ -21,69 +24,104 @@ export interface PatchWork {
   readonly settings: Float64Array;
 }
 
-/** Holes that were found, in the core's arrays; the mesh itself, which a caller in another thread has given away; and the time. */
-export interface FoundHoles {
-  readonly arrays: HolesArrays;
-  /** With `weld`: the new number of each vertex; the mesh is the welded one then, still with the attributes of all. */
-  readonly vertexMap: Uint32Array | undefined;
-  readonly mesh: FlatMesh;
-  readonly seconds: number;
-}
-
-/** A mesh as the first arguments of an export. */
-export const argumentsOf = ({ positions, faces }: FlatMesh): CoreArgument[] => [
-  positions,
-  positions.length / 3,
-  faces,
-  faces.length / 3,
-];
-
-export function computeHoles(given: FlatMesh, options: HoleOptions): FoundHoles {
-  const { weld, maxSeconds, maxMemoryBytes = kDefaultMemoryBytes } = options;
-  const started = performance.now();
-  const watch = { maxSeconds, explain: meshError };
-  let [mesh, vertexMap]: [FlatMesh, Uint32Array | undefined] = [given, undefined];
-  if (weld !== undefined) {
-    const args = [...argumentsOf(given), weld, maxMemoryBytes];
-    const { arrays } = callCore(shared.meshes, 'sf_weld_mesh', args, readWeldArrays, watch);
-    vertexMap = arrays.vertexMap;
-    mesh = { ...given, positions: arrays.positions, faces: arrays.faces };
-  }
-  const spent = (): number => (performance.now() - started) / 1000;
-  const args = [...argumentsOf(mesh), maxMemoryBytes];
-  const { arrays } = callCore(shared.meshes, 'sf_find_holes', args, readHolesArrays, { ...watch, spentSeconds: spent() });
-  return { arrays, mesh, vertexMap, seconds: spent() };
-}
-
-/** Limits, listener and what is to be filled. */
-export interface PatchOptions extends Limits {
-  readonly work: PatchWork;
+/** Limits of a call of several, and who hears of it. */
+export interface Budget extends Limits {
   /** Seconds of `maxSeconds` that are gone. */
-  readonly spentSeconds: number;
+  readonly spentSeconds?: number;
   readonly onProgress?: ProgressListener | undefined;
 }
 
-/** Filled holes in the core's arrays, the mesh, and the seconds that are gone. */
-export interface FilledHoles {
-  readonly arrays: FillArrays;
-  readonly mesh: FlatMesh;
-  readonly spentSeconds: number;
+/** What a call has taken and given. */
+export interface Timed<T> {
+  readonly value: T;
+  readonly seconds: number;
 }
 
-export function computePatches(mesh: FlatMesh, options: PatchOptions): FilledHoles {
-  const { work, maxMemoryBytes = kDefaultMemoryBytes, maxSeconds, spentSeconds, onProgress } = options;
-  const { starts, loops, settings } = work;
+/** Calls an export of meshes.wasm in one of its instances. */
+export type MeshCall = <T>(name: string, args: readonly CoreArgument[], read: (array: ArrayReader) => T, watch: Watch<T>) => T;
+
+const callShared: MeshCall = (name, args, read, watch) => callCore(shared.meshes, name, args, read, watch).arrays;
+
+/** A mesh as the first arguments of an export. */
+export const argumentsOf = ({ positions, faces }: BareMesh): CoreArgument[] => [positions, positions.length / 3, faces, faces.length / 3];
+
+function timed<T>(run: (watch: Omit<Watch<never>, 'onResult'>, memory: number) => T, { maxSeconds, maxMemoryBytes = kDefaultMemoryBytes, spentSeconds, onProgress }: Budget): Timed<T> {
   const started = performance.now();
-  const args = [...argumentsOf(mesh), starts, starts.length - 1, loops, settings, maxMemoryBytes];
-  const watch = { maxSeconds, spentSeconds, onProgress, explain: meshError };
-  const { arrays } = callCore(shared.meshes, 'sf_fill_holes', args, readFillArrays, watch);
-  return { arrays, mesh, spentSeconds: spentSeconds + (performance.now() - started) / 1000 };
+  const value = run({ maxSeconds, spentSeconds, onProgress, explain: meshError }, maxMemoryBytes);
+  return { value, seconds: (performance.now() - started) / 1000 };
+}
+
+/** The mesh with vertices made one that are within `weld` of each other. */
+export function computeWeld(mesh: BareMesh, { weld, ...budget }: Budget & { readonly weld: number }): Timed<BareMesh & { readonly vertexMap: Uint32Array }> {
+  return timed((watch, memory) => callShared('sf_weld_mesh', [...argumentsOf(mesh), weld, memory], readWeldArrays, watch), budget);
 }
 
 /** Pairs of faces of a mesh that intersect: [2p]. */
-export function computeCrossings(mesh: FlatMesh, options: Omit<PatchOptions, 'work'>): Uint32Array {
-  const { maxSeconds, spentSeconds, maxMemoryBytes = kDefaultMemoryBytes } = options;
-  const args = [...argumentsOf(mesh), maxMemoryBytes];
-  const watch = { maxSeconds, spentSeconds, explain: meshError };
-  return callCore(shared.meshes, 'sf_find_crossings', args, readCrossingsArrays, watch).arrays.pairs;
+export function computeCrossings(mesh: BareMesh, budget: Budget): Timed<Uint32Array> {
+  return timed((watch, memory) => callShared('sf_find_crossings', [...argumentsOf(mesh), memory], readCrossingsArrays, watch).pairs, budget);
+}
+
+/** The holes of a mesh that is then forgotten. */
+export const computeHoles = (mesh: BareMesh, budget: Budget): Timed<HolesArrays> => findIn(callShared, mesh, 0, budget);
+
+/** The holes of a mesh, which stays in the instance by the number that is the only one in `session`. */
+export const openIn = (call: MeshCall, mesh: BareMesh, budget: Budget): Timed<HolesArrays> => findIn(call, mesh, 1, budget);
+
+function findIn(call: MeshCall, mesh: BareMesh, keeps: 0 | 1, budget: Budget): Timed<HolesArrays> {
+  return timed((watch, memory) => call('sf_find_holes', [...argumentsOf(mesh), keeps, memory], readHolesArrays, watch), budget);
+}
+
+/** Fills holes of a mesh that is open. */
+export function fillIn(call: MeshCall, session: number, { starts, loops, settings }: PatchWork, budget: Budget): Timed<FillArrays> {
+  return timed(
+    (watch, memory) => call('sf_fill_holes', [session, starts, starts.length - 1, loops, settings, memory], readFillArrays, watch),
+    budget,
+  );
+}
+
+/** Frees what the instance has of an open mesh. */
+export const kClose = 'sf_close_mesh';
+
+/** A mesh for a thread, which may have it open under that name already. */
+export interface NamedMesh {
+  readonly name: number;
+  /** Left out if the thread has it. */
+  readonly mesh?: BareMesh;
+}
+
+/** The one mesh that this thread keeps open between calls. */
+let kept: { readonly name: number; readonly session: number } | undefined;
+let keptHome = new Home('meshes');
+
+const callKept: MeshCall = (name, args, read, watch) => callCore(keptHome, name, args, read, watch).arrays;
+
+/** The holes of a mesh that stays open in this thread, in place of the one before. */
+export function computeOpen({ name, mesh }: NamedMesh, budget: Budget): Timed<HolesArrays> {
+  if (kept) forgetMesh(kept.name);
+  const opened = openIn(callKept, mesh as BareMesh, budget);
+  kept = { name, session: opened.value.session[0] };
+  return opened;
+}
+
+/** Fills holes of a mesh that stays open in this thread; after an error none does. */
+export function computePatches(mesh: NamedMesh, { work, ...budget }: Budget & { readonly work: PatchWork }): Timed<FillArrays> {
+  const { spentSeconds = 0, onProgress, ...limits } = budget;
+  try {
+    const { seconds } = kept?.name === mesh.name ? { seconds: 0 } : computeOpen(mesh, { ...limits, spentSeconds });
+    const filled = fillIn(callKept, kept?.session as number, work, { ...limits, spentSeconds: spentSeconds + seconds, onProgress });
+    return { value: filled.value, seconds: seconds + filled.seconds };
+  } catch (error) {
+    forgetMesh(mesh.name);
+    throw error;
+  }
+}
+
+/** Closes the mesh of that name, if it is open here. */
+export function forgetMesh(name: number): void {
+  if (kept?.name !== name) return;
+  const { session } = kept;
+  kept = undefined;
+  // Memory of an instance never shrinks.
+  if (keptHome.lost || isLarge(keptHome)) keptHome = new Home('meshes');
+  else callKept(kClose, [session], () => undefined, {});
 }

@@ -1,6 +1,6 @@
 // smoothSurface, once the arguments are checked: asks the core. Threads need only this half.
 import { packSmoothSettings, readSmoothArrays, type SmoothArrays } from './border.js';
-import { argumentsOf, type FlatMesh } from './compute_holes.js';
+import { argumentsOf, type BareMesh } from './compute_holes.js';
 import { meshError } from './messages.js';
 import type { Limits } from './options.js';
 import { callCore, kDefaultMemoryBytes, shared } from './runtime.js';
@@ -13,7 +13,7 @@ export interface SmoothWork extends Limits {
   readonly boundaryNormals: Float64Array | undefined;
 }
 
-export function computeSmooth(surface: FlatMesh, work: SmoothWork): SmoothArrays {
+export function computeSmooth(surface: BareMesh, work: SmoothWork): SmoothArrays {
   const { settings, fixed, boundaryNormals: normals, maxSeconds, maxMemoryBytes: maxBytes = kDefaultMemoryBytes } = work;
   const args = [
     ...argumentsOf(surface),

@@ -1,5 +1,6 @@
 // Patches of different holes that cross each other: which are near enough to be tested, and what the test tells.
-import type { FlatMesh } from './compute_holes.js';
+import type { BareMesh } from './compute_holes.js';
+import type { RimSplits } from './hole_splits.js';
 import type { FilledHole } from './types.js';
 
 /** The new part of a filled mesh. */
@@ -9,11 +10,13 @@ export interface Patches {
   readonly positions: Float64Array;
   /** Numbered on from the faces of the mesh, with vertices of the whole. */
   readonly faces: Uint32Array;
+  /** For holes that are not filled, where their rims would have to be split. */
+  readonly splits: RimSplits;
 }
 
 /** Patches whose boxes overlap, as a mesh of their own. */
 export interface ClosePatches {
-  readonly mesh: FlatMesh;
+  readonly mesh: BareMesh;
   /** By its faces: their numbers in the filled mesh. */
   readonly faces: Uint32Array;
   /** By its faces: the number of the hole. */
@@ -21,7 +24,7 @@ export interface ClosePatches {
 }
 
 /** Undefined if no two boxes overlap. Few do: then no more than the boxes is computed. */
-export function closePatches(old: FlatMesh, patches: Patches): ClosePatches | undefined {
+export function closePatches(old: BareMesh, patches: Patches): ClosePatches | undefined {
   const oldFaces = old.faces.length / 3;
   const close = overlapping(patches.holes.filter(({ faces: [from, to] }) => from < to).map((hole) => [hole, boxOf(old, patches, hole)]));
   if (close.length === 0) return undefined;
@@ -45,7 +48,7 @@ export function closePatches(old: FlatMesh, patches: Patches): ClosePatches | un
       }
     }
   }
-  const mesh = { positions: Float64Array.from(positions), faces: Uint32Array.from(vertices), single: false };
+  const mesh = { positions: Float64Array.from(positions), faces: Uint32Array.from(vertices) };
   return { mesh, faces: Uint32Array.from(faces), holes: Uint32Array.from(holes) };
 }
 
@@ -70,10 +73,10 @@ export function withCrossings(patches: Patches, close: ClosePatches, pairs: Uint
 type Box = readonly [low: readonly number[], high: readonly number[]];
 
 /** A number of the filled mesh's positions. */
-const coordinate = (old: FlatMesh, { positions }: Patches, i: number): number =>
+const coordinate = (old: BareMesh, { positions }: Patches, i: number): number =>
   i < old.positions.length ? old.positions[i] : positions[i - old.positions.length];
 
-function boxOf(old: FlatMesh, patches: Patches, { faces: [from, to] }: FilledHole): Box {
+function boxOf(old: BareMesh, patches: Patches, { faces: [from, to] }: FilledHole): Box {
   const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
   for (const v of patches.faces.subarray(3 * from - old.faces.length, 3 * to - old.faces.length)) {
     for (let axis = 0; axis < 3; axis++) {

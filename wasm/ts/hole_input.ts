@@ -39,7 +39,7 @@ export function flattenMesh(mesh: unknown, own: boolean, argument: 'mesh' | 'sur
 
 /** Options of `fillHoles`, checked, without those that were left out. @throws SoapfilmError `bad-option`, `bad-weights` */
 export function fillOptionsOf(given: Given<FillOptions>): FillOptions {
-  const { holes, groups, perHole, fillOpenRims, maxVertices, maxLength, output, onProgress } = given;
+  const { holes, groups, perHole, fillOpenRims, maxVertices, maxLength, output, onProgress, maxSecondsPerHole } = given;
   const checked: { -readonly [K in keyof FillOptions]: unknown } = { ...holeOptionsOf(given), ...patchOptionsOf(given) };
   if (holes !== undefined && holes !== 'all') checked.holes = indicesOf('holes', holes);
   if (groups !== undefined) checked.groups = listOf('groups', groups, (group, name) => indicesOf(name, group, 1));
@@ -48,6 +48,7 @@ export function fillOptionsOf(given: Given<FillOptions>): FillOptions {
   if (maxVertices !== undefined) checked.maxVertices = amountOf('maxVertices', maxVertices);
   if (maxLength !== undefined) checked.maxLength = amountOf('maxLength', maxLength);
   checked.output = choiceOf('output', ['mesh', 'patches'], output);
+  if (maxSecondsPerHole !== undefined) checked.maxSecondsPerHole = amountOf('maxSecondsPerHole', maxSecondsPerHole);
   if (functionOf('onProgress', onProgress) !== undefined) checked.onProgress = onProgress;
   return checked as FillOptions;
 }

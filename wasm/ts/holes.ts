@@ -1,10 +1,10 @@
 // findHoles, fillHoles: check their arguments, and compute.
 import { optionsOf } from './check.js';
-import { computeCrossings, computeHoles, computePatches } from './compute_holes.js';
-import { closePatches, withCrossings } from './hole_crossings.js';
+import { fillSteps, openSteps, reportSteps } from './hole_filling.js';
 import { fillOptionsOf, flattenMesh, holeOptionsOf } from './hole_input.js';
-import { filledOf, partListeners, patchesOf, planOf, reportOf } from './hole_results.js';
-import { kFillOptions, kHoleOptions, limitsOf } from './options.js';
+import { passingPlace } from './mesh_place.js';
+import { kFillOptions, kHoleOptions } from './options.js';
+import { doAtOnce } from './steps.js';
 import type { FillOptions, FillResult, HoleOptions, HoleReport, MeshInput } from './types.js';
 
 /**
@@ -16,25 +16,25 @@ import type { FillOptions, FillResult, HoleOptions, HoleReport, MeshInput } from
  *   `bad-option`; `too-large`, `out-of-memory`, `time-limit`; `crashed`
  */
 export function findHoles(mesh: MeshInput, options: HoleOptions = {}): HoleReport {
-  return reportOf(computeHoles(flattenMesh(mesh, false), holeOptionsOf(optionsOf(options, kHoleOptions))));
+  const flat = flattenMesh(mesh, false);
+  return doAtOnce(reportSteps(passingPlace, flat, holeOptionsOf(optionsOf(options, kHoleOptions))));
 }
 
 /**
  * Fills holes of a mesh: each group of loops gets the surface of least cost that goes on the faces around it (Zou, Ju,
  * Carr 2013, sec. 5), refined to the density of its surroundings and faired (Liepa 2003). Old vertices and faces come
- * first and stay exactly as they are. A patch that intersects something is told so, with the faces.
+ * first and stay exactly as they are, but for `splitFaces`. A patch that intersects something is told so, with the
+ * faces. Who fills the holes of one mesh in several calls uses a `MeshSession`.
  *
  * @throws SoapfilmError those of `findHoles`; `bad-weights`; what `onProgress` throws
  */
 export function fillHoles(mesh: MeshInput, options: FillOptions = {}): FillResult {
   const flat = flattenMesh(mesh, false);
   const given = fillOptionsOf(optionsOf(options, kFillOptions));
-  const found = computeHoles(flat, given);
-  const plan = planOf(reportOf(found), given, flat.single);
-  const [onProgress] = partListeners(plan, [plan.work], given.onProgress);
-  const filled = computePatches(found.mesh, { ...limitsOf(given), work: plan.work, spentSeconds: found.seconds, onProgress });
-  let patches = patchesOf(found.mesh, plan, [filled.arrays]);
-  const close = closePatches(found.mesh, patches);
-  if (close) patches = withCrossings(patches, close, computeCrossings(close.mesh, { ...limitsOf(given), spentSeconds: filled.spentSeconds }));
-  return filledOf(found.mesh, plan, patches, given);
+  const opened = doAtOnce(openSteps(passingPlace, flat, given));
+  try {
+    return doAtOnce(fillSteps(passingPlace, opened, given, opened.seconds));
+  } finally {
+    opened.open.close();
+  }
 }

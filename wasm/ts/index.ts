@@ -4,6 +4,7 @@ export { triangulatePolygon, triangulatePolygons } from './polygon.js';
 export { PolygonSession } from './polygon_session.js';
 export { triangulateGeoJSON } from './geojson.js';
 export { fillHoles, findHoles } from './holes.js';
+export { MeshSession } from './mesh_session.js';
 export { smoothSurface } from './smooth.js';
 export { SoapfilmError } from './errors.js';
 export { formatLoops, formatObj, parseLoops, type FormatObjOptions, type LoopFile, type LoopFormat } from './formats.js';

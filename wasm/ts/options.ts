@@ -9,6 +9,7 @@ import type {
   Part,
   PolygonOptions,
   PolygonsOptions,
+  SessionFillOptions,
   SmoothOptions,
   SpanOptions,
   Weights,
@@ -71,8 +72,8 @@ export const kSmoothOptions: Names<SmoothOptions> = {
   boundaryNormals: true,
 };
 
-export const kFillOptions: Names<FillOptions> = {
-  ...kHoleOptions,
+export const kSessionFillOptions: Names<SessionFillOptions> = {
+  ...kLimits,
   ...kHoleFillOptions,
   holes: true,
   groups: true,
@@ -82,7 +83,10 @@ export const kFillOptions: Names<FillOptions> = {
   maxLength: true,
   output: true,
   onProgress: true,
+  maxSecondsPerHole: true,
 };
+
+export const kFillOptions: Names<FillOptions> = { ...kHoleOptions, ...kSessionFillOptions };
 
 export interface Limits {
   readonly maxMemoryBytes?: number;

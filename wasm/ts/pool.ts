@@ -1,5 +1,6 @@
 // Threads, the calls that wait for them, and what happens to both when a call ends early.
 import { SoapfilmError } from './errors.js';
+import type { BareMesh, NamedMesh } from './compute_holes.js';
 import type { Launcher } from './launch.js';
 import { buffersOf, copyOf, unpackError, type Calls, type Reply, type Request } from './protocol.js';
 import { report } from './report.js';
@@ -14,6 +15,14 @@ export interface CallWatch {
   readonly onBest?: ((value: unknown) => void) | undefined;
   /** Whether a call that the signal ends returns the latest better result, if there is one. */
   readonly keepsBest?: boolean | undefined;
+  /** The mesh that the call is about: the input is its name, and a copy goes to a thread that has not got it. */
+  readonly mesh?: PooledMesh | undefined;
+}
+
+/** A mesh that threads keep open between calls. */
+export interface PooledMesh {
+  readonly name: number;
+  readonly copy: () => BareMesh;
 }
 
 interface Job {
@@ -31,6 +40,8 @@ interface Job {
 interface Member {
   readonly thread: Thread;
   job: Job | undefined;
+  /** The mesh that it has open. */
+  mesh?: number | undefined;
 }
 
 export class Pool {
@@ -97,6 +108,15 @@ export class Pool {
     });
   }
 
+  /** Closes the mesh of that name where it is open. */
+  forget(name: number): void {
+    for (const member of this.#members) {
+      if (member.mesh !== name) continue;
+      member.mesh = undefined;
+      member.thread.post({ kind: 'forget', name }, []);
+    }
+  }
+
   dispose(): void {
     this.#disposed = true;
     const jobs = [...this.#members].flatMap(({ job }) => job ?? []).concat(this.#queue.splice(0));
@@ -107,9 +127,14 @@ export class Pool {
 
   /** Hands waiting calls to free threads, and starts threads for the rest. */
   #pump(): void {
-    for (const member of this.#members) {
-      if (this.#queue.length === 0) return;
-      if (!member.job) this.#assign(member, this.#queue.shift() as Job);
+    const free = new Set([...this.#members].filter(({ job }) => !job));
+    while (free.size > 0 && this.#queue.length > 0) {
+      const job = this.#queue.shift() as Job;
+      // One that has the mesh of the call, or none that another call may come for.
+      const lacking = ({ mesh }: Member): number => (mesh === job.watch.mesh?.name ? 0 : mesh === undefined ? 1 : 2);
+      const [member] = [...free].sort((a, b) => lacking(a) - lacking(b));
+      free.delete(member);
+      this.#assign(member, job);
     }
     while (this.#starting < this.#queue.length && this.#members.size + this.#starting < this.size) {
       this.start().catch(() => undefined);
@@ -120,7 +145,9 @@ export class Pool {
     member.job = job;
     member.thread.keepAlive(true);
     try {
-      member.thread.post(job.request, buffersOf(job.request.input));
+      const request = requestFor(member, job);
+      member.thread.post(request, buffersOf(request.input));
+      member.mesh = job.watch.mesh?.name ?? member.mesh;
     } catch (cause) {
       this.#release(member);
       job.reject(
@@ -221,11 +248,20 @@ export class Pool {
         this.#release(member);
         break;
       case 'error':
+        // The thread has closed it.
+        if (job.watch.mesh) member.mesh = undefined;
         job.reject(job.thrown ? job.thrown.reason : unpackError(reply.error));
         this.#release(member);
         break;
     }
   }
+}
+
+/** The call's request, with its mesh if the thread has not got that. */
+function requestFor({ mesh: open }: Member, { request, watch: { mesh } }: Job): Job['request'] {
+  if (!mesh || mesh.name === open) return request;
+  const named: NamedMesh = { name: mesh.name, mesh: mesh.copy() };
+  return { ...request, input: [named, request.input[1]] as Job['request']['input'] };
 }
 
 export const disposed = (): SoapfilmError =>

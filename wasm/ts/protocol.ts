@@ -3,7 +3,7 @@ import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
 import type { Modules } from './compile.js';
 import type { PolygonEditor } from './compute_edits.js';
 import type { FlatPolygons } from './flat_polygons.js';
-import type { computeCrossings, computeHoles, computePatches } from './compute_holes.js';
+import type { computeCrossings, computeHoles, computeOpen, computePatches, computeWeld } from './compute_holes.js';
 import type { computeSmooth } from './compute_smooth.js';
 import type { computeSpan } from './compute_span.js';
 import type { PolygonsOptions, PolygonTriangulation, PolygonsTriangulation } from './types.js';
@@ -16,7 +16,9 @@ export interface Calls {
   readonly spanLoops: typeof computeSpan;
   readonly triangulatePolygon: (polygon: FlatPolygons, options: PolygonsOptions) => PolygonTriangulation;
   readonly triangulatePolygons: (polygons: FlatPolygons, options: PolygonsOptions) => PolygonsTriangulation;
+  readonly weldMesh: typeof computeWeld;
   readonly findHoles: typeof computeHoles;
+  readonly openMesh: typeof computeOpen;
   readonly fillHoles: typeof computePatches;
   readonly findCrossings: typeof computeCrossings;
   readonly smoothSurface: typeof computeSmooth;
@@ -47,10 +49,14 @@ export interface SessionRequest {
   readonly input: readonly unknown[];
 }
 
-/** To a thread: first the core's parts, then one call at a time, or any number of requests about sessions. */
+/**
+ * To a thread: first the core's parts, then one call at a time, or any number of requests about sessions. A thread for
+ * calls may have a mesh open after one; `forget` closes that, and has no answer.
+ */
 export type Request =
   | SessionRequest
   | { readonly kind: 'start'; readonly modules: Modules }
+  | { readonly kind: 'forget'; readonly name: number }
   | {
       readonly kind: 'call';
       readonly name: keyof Calls;

@@ -132,6 +132,7 @@ export async function startCore(part: Part, compiled: WebAssembly.Module): Promi
 function imports(compiled: WebAssembly.Module): WebAssembly.Imports {
   const known: Record<string, (...args: number[]) => unknown> = {
     sf_host_progress: onHostProgress,
+    sf_host_seconds: () => performance.now() / 1000,
     sf_host_result: onHostResult,
     proc_exit: (code) => {
       throw new Error(`the core exited with ${code}`);
@@ -285,10 +286,13 @@ function takeBack(home: Home, core: Core): void {
   home.copies = [];
 }
 
+/** Whether the home has an instance that is too large to keep when nobody needs it. */
+export const isLarge = ({ core }: Home): boolean => core !== undefined && core.memory.buffer.byteLength > kKeepBytes;
+
 /** Drops a large shared instance after a while without calls. Its timer does not keep Node alive. */
 function giveUpWhenIdle(home: Home): void {
   clearTimeout(home.idle);
-  if (home.core && home.core.memory.buffer.byteLength > kKeepBytes) {
+  if (isLarge(home)) {
     home.idle = setTimeout(() => (home.core = undefined), kIdleMs);
     (home.idle as { unref?: () => void }).unref?.();
   }

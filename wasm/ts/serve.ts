@@ -1,6 +1,6 @@
 // The thread's side of the pool: runs the calls that it receives, one after the other, and keeps sessions.
 import { PolygonEditor } from './compute_edits.js';
-import { computeCrossings, computeHoles, computePatches } from './compute_holes.js';
+import { computeCrossings, computeHoles, computeOpen, computePatches, computeWeld, forgetMesh } from './compute_holes.js';
 import { computeSmooth } from './compute_smooth.js';
 import { computePolygons, triangulationOfOne } from './compute_polygons.js';
 import { computeSpan } from './compute_span.js';
@@ -29,7 +29,9 @@ const calls: Calls = {
   spanLoops: computeSpan,
   triangulatePolygon: (polygon, options) => triangulationOfOne(computePolygons(polygon, options, false)),
   triangulatePolygons: (polygons, options) => computePolygons(polygons, options, true),
+  weldMesh: computeWeld,
   findHoles: computeHoles,
+  openMesh: computeOpen,
   fillHoles: computePatches,
   findCrossings: computeCrossings,
   smoothSurface: computeSmooth,
@@ -60,6 +62,10 @@ export function serve(port: Port): void {
       const parts = Object.entries(request.modules) as [Part, WebAssembly.Module][];
       await Promise.all(parts.map(([part, module]) => startCore(part, module)));
       reply({ kind: 'ready' });
+      return;
+    }
+    if (request.kind === 'forget') {
+      forgetMesh(request.name);
       return;
     }
     if (request.kind === 'session') {

@@ -503,7 +503,15 @@ export interface FillOptions extends HoleFillOptions, HoleOptions {
   readonly output?: 'mesh' | 'patches';
   /** Called now and then with the share of the work that is done, the hole at work and how many there are. An error in it ends the work. */
   readonly onProgress?: (fraction: number, hole: number, of: number) => void;
+  /**
+   * Most time for one hole. A hole that takes longer gets the best surface found until then, not refined, or fails
+   * if there is none; its reason is `'time-limit'`. Default: no limit.
+   */
+  readonly maxSecondsPerHole?: number;
 }
+
+/** What a session is asked to fill: as in `fillHoles`, but for `weld`, which is said when it is opened. */
+export type SessionFillOptions = Omit<FillOptions, 'weld'>;
 
 /**
  * Why a hole is not filled, or how it is.
@@ -514,11 +522,14 @@ export interface FillOptions extends HoleFillOptions, HoleOptions {
  * - `'repeated-vertex'`: two vertices of its rims are in one place.
  * - `'duplicate-face'`: the patch would have a face or an edge that the mesh has already.
  * - `'too-large'`: it needs more than `maxMemoryBytes`.
- * - `'inserted-vertices'`: only a surface with further vertices on its rims was found, and rims stay as they are.
+ * - `'inserted-vertices'`: only a surface with further vertices on its rims was found, and none that those could be
+ *   put on.
  * - `'opposed-rims'`: a rim runs the other way round than the rest, so a part of the mesh is inside out.
+ * - `'time-limit'`: no surface was found within `maxSecondsPerHole`.
  *
  * It is filled:
  * - `'stitched'`: in part at least by triangles without area, between vertices of the rim that are in one place.
+ * - `'time-limit'`: by the best surface found within `maxSecondsPerHole`, which then is as coarse as its rims.
  *
  * It was skipped, by an option of `fillHoles`:
  * - `'too-many-vertices'`: more than `maxVertices` are on its rims.
@@ -534,6 +545,7 @@ export type HoleReason =
   | 'inserted-vertices'
   | 'opposed-rims'
   | 'stitched'
+  | 'time-limit'
   | 'too-many-vertices'
   | 'too-long'
   | 'not-asked-for';
@@ -564,13 +576,33 @@ export interface FilledHole {
   readonly fairnessUsed: 0 | 1 | 2;
   /** Share of the fairing that was taken back since the patch would have intersected something, 0 to 1. */
   readonly movedLess: number;
+  /**
+   * Attributes that are 0 on the patch: texture coordinates, called `uv` or the like, where charts meet at its rims.
+   * Known only of meshes that are welded here.
+   */
+  readonly attributesLeft?: readonly string[];
+}
+
+/**
+ * A face along a rim that had to be split, since no surface could be had without further vertices on the rim. That is
+ * rare. The shape stays as it is.
+ */
+export interface SplitFace {
+  readonly face: number;
+  /** `[3]` the face is its first piece now: the vertices of that. */
+  readonly corners: Uint32Array;
+  /** The other pieces, as faces of the filled mesh. */
+  readonly first: number;
+  readonly count: number;
 }
 
 export interface FillResult {
-  /** The mesh with its holes filled: old vertices and faces first, exactly as given. With `output: 'patches'` only the new ones; faces still name vertices of the whole. */
+  /** The mesh with its holes filled: old vertices and faces first, exactly as given but for `splitFaces`. With `output: 'patches'` only the new ones; faces still name vertices of the whole. */
   readonly mesh: MeshLike;
   readonly oldVertices: number;
   readonly oldFaces: number;
+  /** Old faces that are not as given: they had to be split. */
+  readonly splitFaces: readonly SplitFace[];
   /** With `weld`: `[n]` the number of each vertex in the welded mesh, which then is the old part. */
   readonly vertexMap?: Uint32Array;
   /** Whether no hole was left, open rims neither; patches may cross something. */
@@ -622,7 +654,7 @@ export interface SmoothSurface {
 /**
  * A part of the core that can be loaded by itself. `'loops'` is `loops.wasm`, for `spanLoops`. `'polygons'`
  * is `polygons.wasm`, for `triangulatePolygon`, `triangulatePolygons`, `triangulateGeoJSON` and
- * `PolygonSession`. `'meshes'` is `meshes.wasm`, for `findHoles`, `fillHoles` and
+ * `PolygonSession`. `'meshes'` is `meshes.wasm`, for `findHoles`, `fillHoles`, `MeshSession` and
  * `smoothSurface`.
  */
 export type Part = 'loops' | 'polygons' | 'meshes';

@@ -31,6 +31,7 @@ import type {
   PolygonState,
   PolygonsTriangulation,
   PolygonTriangulation,
+  SessionFillOptions,
   SmoothOptions,
   SmoothSurface,
   Span,
@@ -91,6 +92,10 @@ export interface Film {
   findHoles(mesh: MeshInput, options?: HoleOptions & CallOptions): Promise<HoleReport>;
   /** `onProgress` is called in the caller's thread. */
   fillHoles(mesh: MeshInput, options?: FillOptions & CallOptions): Promise<FillResult>;
+  /**
+   * Opens a mesh whose holes are to be filled in several calls. `signal` and `maxSeconds` are for the opening only.
+   */
+  createMeshSession(mesh: MeshInput, options?: HoleOptions & CallOptions): Promise<MeshSessionHandle>;
   smoothSurface(surface: MeshInput, options?: SmoothOptions & CallOptions): Promise<SmoothSurface>;
   /** Ends all threads. Calls under way and later calls fail with `disposed`, and so do those of sessions. */
   dispose(): void;
@@ -130,6 +135,26 @@ export interface PolygonSessionHandle {
 }
 
 /**
+ * A `MeshSession` of the package's main entry whose mesh is open in the pool's threads: in one, and in as many as its
+ * holes are shared out among. A call may be cancelled by its `signal`; it then ends its thread, and so does one that
+ * crashes, but the session goes on: the next call opens the mesh anew, from a copy that the session keeps.
+ *
+ * A thread has one mesh open at a time, so calls of several sessions that take turns in one thread open theirs anew
+ * each time. `dispose` frees the memory; a session that is no longer referred to is freed in time.
+ */
+export interface MeshSessionHandle {
+  /** The number by which errors name the session: 1 for the first session that is opened in this thread or from it. */
+  readonly id: number;
+  /** What `findHoles` finds. */
+  readonly report: HoleReport;
+  /** As `fillHoles` of the pool. */
+  fillHoles(options?: SessionFillOptions & CallOptions): Promise<FillResult>;
+  /** Ends the session. Calls before still get their answers; later ones fail with `disposed`. */
+  dispose(): void;
+  [Symbol.dispose](): void;
+}
+
+/**
  * Starts a pool. It needs no `load()`. A part that `load` or a pool has compiled is not compiled again.
  * @throws SoapfilmError `load-failed`, `bad-option`
  */
@@ -150,7 +175,7 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
     : missing('polygons', 'triangulatePolygon', 'triangulatePolygons', 'triangulateGeoJSON', 'createPolygonSession');
   const meshes = modules.meshes
     ? (await import('./worker_meshes.js')).meshCalls(pool)
-    : missing('meshes', 'findHoles', 'fillHoles', 'smoothSurface');
+    : missing('meshes', 'findHoles', 'fillHoles', 'createMeshSession', 'smoothSurface');
   return {
     async spanLoops(loops, options = {}) {
       const input = flattenLoops(loops, true);

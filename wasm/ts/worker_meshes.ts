@@ -1,52 +1,67 @@
 // The functions for meshes of `soapfilm/worker`.
-import type { FlatMesh, FoundHoles } from './compute_holes.js';
-import { closePatches, withCrossings } from './hole_crossings.js';
+import type { BareMesh, PatchWork } from './compute_holes.js';
+import { kDispose } from './dispose.js';
+import { fillSteps, openSteps, reportSteps, type CallBudget, type MeshPlace } from './hole_filling.js';
 import { fillOptionsOf, flattenMesh, holeOptionsOf } from './hole_input.js';
-import { filledOf, partListeners, partsOf, patchesOf, planOf, reportOf } from './hole_results.js';
-import { callOptionsOf, kFillOptions, kHoleOptions, kSmoothOptions, limitsOf } from './options.js';
-import type { Pool } from './pool.js';
+import { callOptionsOf, kFillOptions, kHoleOptions, kSessionFillOptions, kSmoothOptions, limitsOf } from './options.js';
+import type { Pool, PooledMesh } from './pool.js';
+import { newSessionId, sessionDisposed } from './session_id.js';
 import { smoothOf, smoothWorkOf } from './smooth_input.js';
-import type { HoleOptions } from './types.js';
-import type { Film } from './worker.js';
+import { doInTime } from './steps.js';
+import type { ProgressListener } from './types.js';
+import type { Film, MeshSessionHandle } from './worker.js';
 
-type MeshCalls = 'findHoles' | 'fillHoles' | 'smoothSurface';
+type MeshCalls = 'findHoles' | 'fillHoles' | 'createMeshSession' | 'smoothSurface';
 
 /** Calls that check and copy here, have the pool compute, and make the results here. */
 export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
-  const find = (mesh: FlatMesh, options: HoleOptions, signal: AbortSignal | undefined): Promise<FoundHoles> =>
-    pool.call('findHoles', [mesh, options], { signal });
+  const place = placeIn(pool);
+  const forgotten = new FinalizationRegistry<() => void>((close) => {
+    close();
+  });
   return {
     async findHoles(mesh, options = {}) {
       const flat = flattenMesh(mesh, true);
       const [given, signal] = callOptionsOf(options, kHoleOptions);
-      return reportOf(await find(flat, holeOptionsOf(given), signal));
+      return doInTime(reportSteps(place, flat, holeOptionsOf(given), signal));
     },
     async fillHoles(mesh, options = {}) {
       const flat = flattenMesh(mesh, true);
       const [all, signal] = callOptionsOf(options, kFillOptions);
       const given = fillOptionsOf(all);
-      // No more than finding needs: listeners cannot be sent.
-      const found = await find(flat, holeOptionsOf(given), signal);
-      const plan = planOf(reportOf(found), given, flat.single);
-      const parts = partsOf(plan.work, plan, pool.size);
-      const listeners = partListeners(plan, parts, given.onProgress);
-      // One thread is handed the mesh itself, the others copies.
-      const { positions, faces, single } = found.mesh;
-      const copy = (): FlatMesh => ({ positions: positions.slice(), faces: faces.slice(), single });
-      const meshes = parts.map((_, i) => (i === 0 ? found.mesh : copy()));
-      const filled = await together(signal, parts, (work, i, ends) => {
-        const patches = { ...limitsOf(given), work, spentSeconds: found.seconds };
-        return pool.call('fillHoles', [meshes[i], patches], { signal: ends, onProgress: listeners[i] });
-      });
-      const old = filled[0]?.mesh ?? found.mesh;
-      let patches = patchesOf(old, plan, filled.map(({ arrays }) => arrays));
-      const close = closePatches(old, patches);
-      if (close) {
-        const limits = { ...limitsOf(given), spentSeconds: Math.max(...filled.map(({ spentSeconds }) => spentSeconds)) };
-        const pairs = await pool.call('findCrossings', [close.mesh, limits], { signal });
-        patches = withCrossings(patches, close, pairs);
+      const opened = await doInTime(openSteps(place, flat, given, signal));
+      try {
+        return await doInTime(fillSteps(place, opened, given, opened.seconds, signal));
+      } finally {
+        opened.open.close();
       }
-      return filledOf(old, plan, patches, given);
+    },
+    async createMeshSession(mesh, options = {}) {
+      const flat = flattenMesh(mesh, true);
+      const [all, signal] = callOptionsOf(options, kHoleOptions);
+      const given = holeOptionsOf(all);
+      const opened = await doInTime(openSteps(place, flat, given, signal));
+      const memory = limitsOf({ maxMemoryBytes: given.maxMemoryBytes });
+      const id = newSessionId();
+      let isOpen = true;
+      const dispose = (): void => {
+        isOpen = false;
+        forgotten.unregister(handle);
+        opened.open.close();
+      };
+      const handle: MeshSessionHandle = {
+        id,
+        report: opened.report,
+        async fillHoles(options = {}) {
+          if (!isOpen) throw sessionDisposed(id);
+          const [all, signal] = callOptionsOf(options, kSessionFillOptions);
+          return doInTime(fillSteps(place, opened, { ...memory, ...fillOptionsOf(all) }, 0, signal));
+        },
+        dispose,
+        [kDispose]: dispose,
+      };
+      forgotten.register(handle, opened.open.close, handle);
+      return handle;
     },
     async smoothSurface(surface, options = {}) {
       const flat = flattenMesh(surface, true, 'surface');
@@ -55,6 +70,33 @@ export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
     },
   };
 }
+
+let names = 0;
+
+/** Meshes in the threads of a pool. Those that are open are known to the threads by names. */
+function placeIn(pool: Pool): MeshPlace {
+  return {
+    weld: (mesh, { signal, ...budget }) => pool.call('weldMesh', [bare(mesh), budget], { signal }),
+    find: (mesh, { signal, ...budget }) => pool.call('findHoles', [bare(mesh), budget], { signal }),
+    crossings: (mesh, { signal, ...budget }) => pool.call('findCrossings', [bare(mesh), budget], { signal }),
+    async open(given, { signal, ...budget }) {
+      const mesh: PooledMesh = { name: ++names, copy: () => ({ positions: given.positions.slice(), faces: given.faces.slice() }) };
+      const input = { name: mesh.name };
+      const { value: holes, seconds } = await pool.call('openMesh', [input, budget], { signal, mesh });
+      const fill = (parts: readonly PatchWork[], { signal, ...budget }: CallBudget, listeners: readonly (ProgressListener | undefined)[]) =>
+        together(signal, parts, (work, i, ends) =>
+          pool.call('fillHoles', [input, { ...budget, work }], { signal: ends, mesh, onProgress: listeners[i] }),
+        );
+      const close = (): void => {
+        pool.forget(mesh.name);
+      };
+      return { value: { size: pool.size, holes, fill, close }, seconds };
+    },
+  };
+}
+
+/** What the core takes of a mesh. The buffers go to the thread: nobody else needs them. */
+const bare = ({ positions, faces }: BareMesh): BareMesh => ({ positions, faces });
 
 /** Starts work on all parts at once. The first that fails, or the signal, ends the others. */
 async function together<P, R>(

@@ -98,6 +98,10 @@ void fill(const Mesh& mesh, const SfResult* holes, Bytes& in) {
   const uint32_t* starts = array<uint32_t>(holes, SfHoles_groupStarts, groups);
   const uint32_t* numbers = array<uint32_t>(holes, SfHoles_groupLoops, loops);
   require(groups > 0, "where groups begin");
+  size_t sessions;
+  const uint32_t* kept = array<uint32_t>(holes, SfHoles_session, sessions);
+  require(sessions == 1, "a session");
+  const uint32_t session = *kept;
   std::vector<SfPatchSettings> settings(groups - 1);
   for (SfPatchSettings& s : settings) {
     s.areaWeight = in.below(2) ? NAN : in.below(3);
@@ -109,12 +113,12 @@ void fill(const Mesh& mesh, const SfResult* holes, Bytes& in) {
     s.maxNewVertices = 4.0 * in.byte();
     s.crease = in.below(3) * 0.5;
     s.inFloats = in.below(2);
+    s.maxSeconds = in.below(4) ? INFINITY : in.below(8);
   }
   SfPlace where;
   SfResult* result = nullptr;
-  const SfStatus status =
-      sf_fill_holes(mesh.positions.data(), mesh.vertexCount(), mesh.faces.data(), mesh.faceCount(),
-                    starts, uint32_t(groups - 1), numbers, settings.data(), 64e6, &where, &result);
+  const SfStatus status = sf_fill_holes(session, starts, uint32_t(groups - 1), numbers,
+                                        settings.data(), 64e6, &where, &result);
   require((status == 0) == (result != nullptr), "a result with Ok alone");
   if (result == nullptr) return;
   size_t coordinates, corners, facts, pairs;
@@ -129,6 +133,19 @@ void fill(const Mesh& mesh, const SfResult* holes, Bytes& in) {
     require(faces[i] < vertexCount, "faces of vertices that there are");
   for (size_t i = 0; i < pairs; ++i) require(pair[i] < faceCount, "pairs of faces that there are");
   requireFinite(positions, coordinates);
+  size_t places, parameters;
+  const uint32_t* split = array<uint32_t>(result, SfFill_splits, places);
+  const double* parameter = array<double>(result, SfFill_splitParameters, parameters);
+  require(places == 3 * parameters, "a place for every split");
+  for (size_t i = 0; i < parameters; ++i) {
+    require(split[3 * i] < mesh.faceCount(), "splits of faces that there are");
+    require(parameter[i] > 0 && parameter[i] < 1, "splits within edges");
+    const uint32_t* f = &mesh.faces[3 * size_t(split[3 * i])];
+    for (int k = 1; k < 3; ++k) {
+      const uint32_t v = split[3 * i + k];
+      require(v == f[0] || v == f[1] || v == f[2], "splits of the face's edges");
+    }
+  }
   sf_result_free(result);
 }
 
@@ -159,6 +176,8 @@ extern "C" int32_t sf_host_progress(double fraction, double, double) {
   return callsLeft > 0 && callsLeft-- > 0;
 }
 
+extern "C" double sf_host_seconds() { return kMostCalls - callsLeft; }
+
 extern "C" void sf_host_result(const SfResult*) {}
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -172,11 +191,14 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }
   SfPlace where;
   SfResult* holes = nullptr;
-  const SfStatus status = sf_find_holes(mesh.positions.data(), mesh.vertexCount(),
-                                        mesh.faces.data(), mesh.faceCount(), 64e6, &where, &holes);
+  const SfStatus status =
+      sf_find_holes(mesh.positions.data(), mesh.vertexCount(), mesh.faces.data(), mesh.faceCount(),
+                    1, 64e6, &where, &holes);
   require((status == 0) == (holes != nullptr), "a result with Ok alone");
   if (holes == nullptr) return 0;
   fill(mesh, holes, in);
+  size_t length;
+  sf_close_mesh(*array<uint32_t>(holes, SfHoles_session, length));
   sf_result_free(holes);
   return 0;
 }

@@ -199,9 +199,10 @@ TEST_CASE("fair: a patch is kept apart from a wall beside it") {
       12, [=](double, double) { return rim + 0.15; }, 0);
   Work work;
   {
-    sf::TriangleTree tree(work);
+    sf::Charge charge(work);
+    sf::TriangleTree tree;
     const sf::MeshView view{mesh.positions, mesh.triangles};
-    REQUIRE(tree.build(view, 0, uint32_t(mesh.triangles.size() / 3)));
+    REQUIRE(tree.build(view, 0, uint32_t(mesh.triangles.size() / 3), work, charge));
     sf::Smoothed result;
     CHECK(sf::smoothPatchApart(hole.surface, {}, {}, view, tree, true, work, result) == Status::Ok);
     CHECK(result.pairs == 0);

@@ -32,8 +32,9 @@ Filled fillAll(const TestMesh& input, const FillOptions& options = {}, bool all 
   REQUIRE(buildAdjacency(mesh, work, charge, adjacency));
   REQUIRE(findRims(mesh, adjacency, work, charge, rims));
   REQUIRE(groupRims(mesh, adjacency, rims, work, charge, groups));
-  HoleFiller filler(mesh, adjacency, rims, work);
-  REQUIRE(filler.prepare());
+  Surroundings around;
+  REQUIRE(survey(mesh, adjacency, rims, work, charge, around));
+  HoleFiller filler(mesh, adjacency, rims, around, work);
   Filled result;
   for (uint32_t g = 0; g < groups.count(); ++g) {
     if (groups.isOpenRim[g] && !all) {
@@ -258,8 +259,9 @@ TEST_CASE("fill: work that ends gives back a status and leaves what was filled b
     if (!buildAdjacency(view, work, charge, adjacency) ||
         !findRims(view, adjacency, work, charge, rims))
       continue;
-    HoleFiller filler(view, adjacency, rims, work);
-    if (!filler.prepare()) continue;
+    Surroundings around;
+    if (!survey(view, adjacency, rims, work, charge, around)) continue;
+    HoleFiller filler(view, adjacency, rims, around, work);
     FilledHole hole;
     const std::vector<uint32_t> all{0};
     const Status status = filler.fill(all, {}, hole);

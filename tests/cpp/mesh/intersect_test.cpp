@@ -166,8 +166,9 @@ TEST_CASE("intersect: one surface against the tree of another, before and after 
                  all = uint32_t(sphere.triangles.size() / 3);
   Work work;
   {
-    TriangleTree tree(work);
-    REQUIRE(tree.build(mesh, 0, all));
+    sf::Charge charge(work);
+    TriangleTree tree;
+    REQUIRE(tree.build(mesh, 0, all, work, charge));
     for (const double height : {0.3, 1.2, 0.99}) {
       for (size_t v = 2; v < sheet.positions.size(); v += 3) sheet.positions[v] = height;
       std::vector<FacePair> pairs, expected;

@@ -1,5 +1,7 @@
-// sf_find_holes, sf_weld_mesh, sf_fill_holes, sf_find_crossings: refuse input that has no meaning to the core, call it, pack the results.
+// sf_find_holes, sf_fill_holes, sf_close_mesh, sf_weld_mesh, sf_find_crossings: refuse input that has no meaning to the core, call it,
+// pack the results.
 #include "abi/host_work.h"
+#include "abi/kept.h"
 #include "abi/mesh_input.h"
 #include "abi/result.h"
 #include "mesh/fill.h"
@@ -13,24 +15,37 @@ SF_TIE(isTied, sf::Fairing, SF_FAIRING_CHOICES)
 SF_TIE(isTied, sf::FillStatus, SF_FILL_STATUS_CHOICES)
 SF_TIE(isTied, sf::FillReason, SF_FILL_REASON_CHOICES)
 
-/// What finding and filling begin with.
+/// A mesh and its rims.
 struct Found {
   sf::MeshView mesh;
   sf::Adjacency adjacency;
   sf::Rims rims;
 };
 
-sf::Outcome find(const double* positions, uint32_t vertexCount, const uint32_t* faces,
-                 uint32_t faceCount, sf::Work& work, sf::Charge& charge, Found& found) {
-  const sf::Outcome outcome = sf::viewMesh(positions, vertexCount, faces, faceCount, found.mesh);
-  if (!outcome.ok()) return outcome;
+/// A mesh that is kept for filling.
+struct OpenMesh {
+  std::vector<double> positions;
+  std::vector<uint32_t> faces;
+  Found found;
+  sf::Surroundings around;
+  bool isSurveyed = false;
+  uint64_t bytes = 0;  // of all that
+};
+
+sf::Kept<OpenMesh>& openMeshes() {
+  static sf::Kept<OpenMesh> all;
+  return all;
+}
+
+sf::Outcome find(sf::Work& work, sf::Charge& charge, Found& found, sf::Grouping& grouping) {
   if (!sf::buildAdjacency(found.mesh, work, charge, found.adjacency) ||
-      !sf::findRims(found.mesh, found.adjacency, work, charge, found.rims))
+      !sf::findRims(found.mesh, found.adjacency, work, charge, found.rims) ||
+      !sf::groupRims(found.mesh, found.adjacency, found.rims, work, charge, grouping))
     return {work.status()};
   return {};
 }
 
-SfResult* pack(Found&& found, sf::Grouping&& grouping) {
+SfResult* pack(const Found& found, sf::Grouping&& grouping) {
   std::vector<SfLoopFacts> loops;
   for (uint32_t i = 0; i < found.rims.count(); ++i) {
     const sf::Rim& rim = found.rims.rims[i];
@@ -49,8 +64,8 @@ SfResult* pack(Found&& found, sf::Grouping&& grouping) {
       places.insert(places.end(), list->begin(), list->end());
   }
   auto* result = new SfResult(SfHolesArrayCount);
-  result->put<SfHoles_loopStarts>(std::move(found.rims.starts));
-  result->put<SfHoles_loopVertices>(std::move(found.rims.vertices));
+  result->put<SfHoles_loopStarts>(std::vector<uint32_t>(found.rims.starts));
+  result->put<SfHoles_loopVertices>(std::vector<uint32_t>(found.rims.vertices));
   result->put<SfHoles_loopFacts>(std::move(loops));
   result->put<SfHoles_groupStarts>(std::move(grouping.starts));
   result->put<SfHoles_groupLoops>(std::move(grouping.rims));
@@ -65,7 +80,7 @@ bool isValid(const SfPatchSettings& s) {
   return !(s.areaWeight < 0) && s.perimeterWeight >= 0 && s.dihedralWeight >= 0 &&
          sf::isChoice(s.space, kGiven) && sf::isChoice(s.fairing, SF_COUNT(SF_FAIRING_CHOICES)) &&
          s.density >= 0 && s.density < 1e6 && s.maxNewVertices >= 0 && s.crease >= 0 &&
-         s.crease < 4 && sf::isChoice(s.inFloats, 2);
+         s.crease < 4 && sf::isChoice(s.inFloats, 2) && s.maxSeconds >= 0;
 }
 
 sf::FillOptions optionsOf(const SfPatchSettings& s) {
@@ -79,6 +94,8 @@ sf::FillOptions optionsOf(const SfPatchSettings& s) {
   options.crease = s.crease;
   options.inFloats = s.inFloats == 1;
   options.refining.maxNewVertices = sf::vertexLimit(s.maxNewVertices);
+  options.maxSeconds = s.maxSeconds;
+  if (std::isfinite(s.maxSeconds)) options.clock = sf_host_seconds;
   return options;
 }
 
@@ -109,47 +126,73 @@ SfFilledFacts factsOf(const sf::FilledHole& hole) {
   facts.firstFace = hole.firstFace;
   facts.endFace = hole.endFace;
   facts.pairs = double(hole.intersections.size());
+  facts.splits = double(hole.splits.size());
   return facts;
 }
 
 }  // namespace
 
 extern "C" SfStatus sf_find_holes(const double* positions, uint32_t vertexCount,
-                                  const uint32_t* faces, uint32_t faceCount, double maxBytes,
-                                  SfPlace* where, SfResult** result) {
+                                  const uint32_t* faces, uint32_t faceCount, uint32_t keeps,
+                                  double maxBytes, SfPlace* where, SfResult** result) {
   *result = nullptr;
   if (!(maxBytes >= 0)) return sf::endWith({sf::Status::BadOption}, where);
   sf::Work work = sf::hostWork(maxBytes);
   sf::Charge charge(work);
-  Found found;
-  sf::Outcome outcome = find(positions, vertexCount, faces, faceCount, work, charge, found);
+  auto opened = std::make_unique<OpenMesh>();
+  sf::MeshView& mesh = opened->found.mesh;
+  sf::Outcome outcome = sf::viewMesh(positions, vertexCount, faces, faceCount, mesh);
+  if (outcome.ok() && keeps) {
+    if (sf::reserve(opened->positions, mesh.positions.size(), charge) &&
+        sf::reserve(opened->faces, mesh.faces.size(), charge)) {
+      opened->positions.assign(mesh.positions.begin(), mesh.positions.end());
+      opened->faces.assign(mesh.faces.begin(), mesh.faces.end());
+      mesh = {opened->positions, opened->faces};
+    } else {
+      outcome = {work.status()};
+    }
+  }
   sf::Grouping grouping;
-  if (outcome.ok() &&
-      !sf::groupRims(found.mesh, found.adjacency, found.rims, work, charge, grouping))
-    outcome = {work.status()};
-  if (outcome.ok()) *result = pack(std::move(found), std::move(grouping));
+  if (outcome.ok()) outcome = find(work, charge, opened->found, grouping);
+  if (outcome.ok()) {
+    *result = pack(opened->found, std::move(grouping));
+    opened->bytes = charge.bytes();
+    if (keeps)
+      (*result)->put<SfHoles_session>(std::vector<uint32_t>{openMeshes().keep(std::move(opened))});
+  }
   return sf::endWith(outcome, where);
 }
 
-extern "C" SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount,
-                                  const uint32_t* faces, uint32_t faceCount,
-                                  const uint32_t* groupStarts, uint32_t groupCount,
-                                  const uint32_t* groupLoops, const SfPatchSettings* settings,
-                                  double maxBytes, SfPlace* where, SfResult** result) {
+extern "C" SfStatus sf_fill_holes(uint32_t session, const uint32_t* groupStarts,
+                                  uint32_t groupCount, const uint32_t* groupLoops,
+                                  const SfPatchSettings* settings, double maxBytes, SfPlace* where,
+                                  SfResult** result) {
   *result = nullptr;
-  bool isAllowed = maxBytes >= 0;
+  OpenMesh* opened = openMeshes().find(session);
+  bool isAllowed = opened && maxBytes >= 0;
   for (uint32_t g = 0; isAllowed && g < groupCount; ++g) isAllowed = isValid(settings[g]);
-  if (!isAllowed) return sf::endWith({sf::Status::BadOption}, where);
+  if (!isAllowed || !areGroups(groupStarts, groupCount, groupLoops, opened->found.rims.count()))
+    return sf::endWith({sf::Status::BadOption}, where);
+  const auto& [mesh, adjacency, rims] = opened->found;
   sf::Work work = sf::hostWork(maxBytes);
-  sf::Charge charge(work);
-  Found found;
-  sf::Outcome outcome = find(positions, vertexCount, faces, faceCount, work, charge, found);
-  if (outcome.ok() && !areGroups(groupStarts, groupCount, groupLoops, found.rims.count()))
-    outcome = {sf::Status::BadOption};
-  sf::HoleFiller filler(found.mesh, found.adjacency, found.rims, work);
-  if (outcome.ok() && groupCount > 0 && !filler.prepare()) outcome = {work.status()};
+  sf::Charge held(work);
+  if (!held.add(opened->bytes)) return sf::endWith({work.status()}, where);
+  if (groupCount > 0 && !opened->isSurveyed) {
+    sf::Charge charge(work);
+    if (!sf::survey(mesh, adjacency, rims, work, charge, opened->around)) {
+      opened->around = {};
+      return sf::endWith({work.status()}, where);
+    }
+    opened->isSurveyed = true;
+    opened->bytes += charge.bytes();
+    held.add(charge.bytes());
+  }
+  sf::HoleFiller filler(mesh, adjacency, rims, opened->around, work);
+  sf::Outcome outcome;
   std::vector<SfFilledFacts> facts;
   std::vector<uint32_t> pairs;
+  std::vector<SfRimSplit> splits;
+  std::vector<double> parameters;
   for (uint32_t g = 0; outcome.ok() && g < groupCount; ++g) {
     work.beginStage(double(g) / groupCount, double(g + 1) / groupCount);
     sf::FilledHole hole;
@@ -159,6 +202,10 @@ extern "C" SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount,
     facts.push_back(factsOf(hole));
     for (const sf::FacePair pair : hole.intersections)
       pairs.insert(pairs.end(), {pair.first, pair.second});
+    for (const sf::RimSplit& split : hole.splits) {
+      splits.push_back({split.face, split.tail, split.head});
+      parameters.push_back(split.parameter);
+    }
   }
   if (outcome.ok()) {
     *result = new SfResult(SfFillArrayCount);
@@ -166,8 +213,15 @@ extern "C" SfStatus sf_fill_holes(const double* positions, uint32_t vertexCount,
     (*result)->put<SfFill_faces>(filler.takeFaces());
     (*result)->put<SfFill_holes>(std::move(facts));
     (*result)->put<SfFill_pairs>(std::move(pairs));
+    (*result)->put<SfFill_splits>(std::move(splits));
+    (*result)->put<SfFill_splitParameters>(std::move(parameters));
   }
   return sf::endWith(outcome, where);
+}
+
+extern "C" SfStatus sf_close_mesh(uint32_t session) {
+  openMeshes().drop(session);
+  return SfStatus(sf::Status::Ok);
 }
 
 extern "C" SfStatus sf_find_crossings(const double* positions, uint32_t vertexCount,

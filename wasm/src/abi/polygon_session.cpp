@@ -1,9 +1,9 @@
 // sf_session_*: polygons that stay in the core while they are edited.
 #include <cstring>
-#include <memory>
 #include <vector>
 
 #include "abi/host_work.h"
+#include "abi/kept.h"
 #include "abi/result.h"
 #include "polygon/session/session.h"
 
@@ -14,23 +14,9 @@ struct OpenSession {
   double maxBytes;
 };
 
-/// The sessions by number; null for one that has been closed.
-std::vector<std::unique_ptr<OpenSession>>& openSessions() {
-  static std::vector<std::unique_ptr<OpenSession>> all;
+sf::Kept<OpenSession>& sessions() {
+  static sf::Kept<OpenSession> all;
   return all;
-}
-
-OpenSession* find(uint32_t number) {
-  auto& all = openSessions();
-  return number < all.size() ? all[number].get() : nullptr;
-}
-
-uint32_t keep(std::unique_ptr<OpenSession> session) {
-  auto& all = openSessions();
-  for (uint32_t i = 0; i < all.size(); ++i)
-    if (!all[i]) return all[i] = std::move(session), i;
-  all.push_back(std::move(session));
-  return uint32_t(all.size()) - 1;
 }
 
 template <class T>
@@ -66,7 +52,7 @@ SfStatus sf_session_open(const double* positions, const uint32_t* ringStarts, ui
   if (outcome.ok()) {
     std::vector<uint32_t> triangles = copyOf(opened->session.triangles());
     *result = new SfResult(SfOpenedArrayCount);
-    (*result)->put<SfOpened_session>(std::vector<uint32_t>{keep(std::move(opened))});
+    (*result)->put<SfOpened_session>(std::vector<uint32_t>{sessions().keep(std::move(opened))});
     (*result)->put<SfOpened_triangles>(std::move(triangles));
   }
   return sf::endWith(outcome, where);
@@ -75,7 +61,7 @@ SfStatus sf_session_open(const double* positions, const uint32_t* ringStarts, ui
 SfStatus sf_session_edit(uint32_t session, uint32_t action, uint32_t vertex, double x, double y,
                          SfPlace* where, SfResult** result) {
   *result = nullptr;
-  OpenSession* opened = find(session);
+  OpenSession* opened = sessions().find(session);
   if (!opened || action >= SF_COUNT(SF_EDIT_ACTION_CHOICES))
     return sf::endWith({sf::Status::BadOption}, where);
   sf::PolygonSession& edited = opened->session;
@@ -122,7 +108,7 @@ SfStatus sf_session_edit(uint32_t session, uint32_t action, uint32_t vertex, dou
 
 SfStatus sf_session_read(uint32_t session, SfPlace* where, SfResult** result) {
   *result = nullptr;
-  const OpenSession* opened = find(session);
+  const OpenSession* opened = sessions().find(session);
   if (!opened) return sf::endWith({sf::Status::BadOption}, where);
   sf::Work work = sf::hostWork(opened->maxBytes);
   std::vector<uint32_t> strips, starts, next;
@@ -140,7 +126,7 @@ SfStatus sf_session_read(uint32_t session, SfPlace* where, SfResult** result) {
 }
 
 SfStatus sf_session_close(uint32_t session) {
-  if (find(session)) openSessions()[session] = nullptr;
+  sessions().drop(session);
   return SfStatus(sf::Status::Ok);
 }
 

@@ -18,6 +18,7 @@ class Charge {
     bytes_ += bytes;
     return work_.charge(bytes);
   }
+  uint64_t bytes() const { return bytes_; }
 
  private:
   Work& work_;

@@ -1,6 +1,6 @@
 // The budget of one call: memory in use against its limit, and progress that may end the work.
 //
-// The core does not throw and does not read clocks. The caller passes a progress function, which
+// The core does not throw, and reads no clock of its own. The caller passes a progress function, which
 // reports, looks at the time and at cancellation, and decides whether to go on.
 #pragma once
 #include <cmath>
@@ -17,6 +17,9 @@ namespace sf {
 ///   bestCost    cost of the best surface so far, +infinity while there is none
 ///   lowerBound  proven lower bound on the optimum; 0 at first, less if there are negative weights
 using ProgressFunction = bool (*)(void* user, double fraction, double bestCost, double lowerBound);
+
+/// Seconds since some moment.
+using Clock = double (*)();
 
 class Work {
  public:
@@ -82,6 +85,18 @@ class Work {
     if (lowerBound > lower_ && !keepsBound_) lower_ = lowerBound;
   }
 
+  /// Ends the work, as if stopped, once `clock` tells `seconds` more than now. endStage() then lets the rest go on.
+  void limitStage(double seconds, Clock clock) { clock_ = clock, deadline_ = clock() + seconds; }
+  /// Whether the stage's time has ended the work.
+  bool isStageOver() const { return isStageOver_; }
+  /// Lifts the limit of the stage; returns whether its time had ended the work, which can then go on.
+  bool endStage() {
+    const bool wasOver = isStageOver_;
+    if (wasOver) status_ = Status::Ok;
+    isStageOver_ = false, clock_ = nullptr;
+    return wasOver;
+  }
+
   /// Ends the work, as if stopped, after about `units` more. For work that is of use unfinished:
   /// endAllowance() then lets the rest go on.
   void beginAllowance(uint64_t units) { allowed_ = spent_ + pending_ + units; }
@@ -113,12 +128,16 @@ class Work {
       status_ = Status::Stopped;
       isPaused_ = true;
     }
+    if (clock_ && status_ == Status::Ok && clock_() >= deadline_) {
+      status_ = Status::Stopped;
+      isStageOver_ = true;
+    }
     const double best = std::ldexp(best_, costExponent_);
     const bool isBetter = best <= earlierBest_;
     if (progress_ && !progress_(user_, fraction_, isBetter ? best : earlierBest_,
                                 isBetter ? lowerBound() : earlierLower_)) {
       fail(Status::Stopped);
-      isPaused_ = false;
+      isPaused_ = isStageOver_ = false;
     }
   }
 
@@ -131,6 +150,9 @@ class Work {
   uint64_t pending_ = 0, spent_ = 0, allowed_ = ~uint64_t(0);  // units
   bool isPaused_ = false;                                      // only the allowance ended the work
   double stageStart_ = 0, stageEnd_ = 1;
+  Clock clock_ = nullptr;  // of the stage's limit, if it has one
+  double deadline_ = 0;
+  bool isStageOver_ = false;  // only the stage's time ended the work
   double fraction_ = 0, partStart_ = 0, partEnd_ = 1, phaseStart_ = 0, phaseEnd_ = 1;
   int costExponent_ = 0;
   double best_ = std::numeric_limits<double>::infinity(), lower_ = 0;

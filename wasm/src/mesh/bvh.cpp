@@ -31,14 +31,14 @@ double Box::reach() const {
   return most;
 }
 
-bool TriangleTree::build(MeshView mesh, uint32_t from, uint32_t to) {
+bool TriangleTree::build(MeshView mesh, uint32_t from, uint32_t to, Work& work, Charge& charge) {
   nodes_.clear(), faces_.clear();
   const size_t count = to - from;
-  if (count == 0) return work_.going();
-  Charge items(work_);
+  if (count == 0) return work.going();
+  Charge items(work);
   // There are fewer nodes than faces, unless there is but one of each.
-  if (!items.add(count * sizeof(Item)) || !reserve(faces_, count, charge_) ||
-      !reserve(nodes_, count + 1, charge_))
+  if (!items.add(count * sizeof(Item)) || !reserve(faces_, count, charge) ||
+      !reserve(nodes_, count + 1, charge))
     return false;
   std::vector<Item> list(count);
   for (uint32_t f = from; f < to; ++f) {
@@ -47,17 +47,17 @@ bool TriangleTree::build(MeshView mesh, uint32_t from, uint32_t to) {
                c = pointAt(mesh.positions, v[2]);
     list[f - from] = {(1.0 / 3) * a + (1.0 / 3) * b + (1.0 / 3) * c, f};
   }
-  divide(list);
+  divide(list, work);
   refit(mesh);
-  return work_.going();
+  return work.going();
 }
 
 /// Adds the node of some faces and all nodes below. Each half has a third of them at least, or the number of calls
 /// on each other would not be logarithmic.
-void TriangleTree::divide(ArrayView<Item> items) {
+void TriangleTree::divide(ArrayView<Item> items, Work& work) {
   const uint32_t at = uint32_t(nodes_.size());
   nodes_.push_back({Box{}, 0, uint32_t(faces_.size()), 0});
-  if (items.size() <= kLeaf || !work_.tick(uint32_t(items.size()) * 8)) {
+  if (items.size() <= kLeaf || !work.tick(uint32_t(items.size()) * 8)) {
     nodes_[at].count = uint32_t(items.size());
     for (const Item& item : items) faces_.push_back(item.face);
   } else {
@@ -81,8 +81,8 @@ void TriangleTree::divide(ArrayView<Item> items) {
       }
       (split < least ? low : high) = split;
     }
-    divide(items.slice(0, half));
-    divide(items.slice(half, items.size() - half));
+    divide(items.slice(0, half), work);
+    divide(items.slice(half, items.size() - half), work);
   }
   nodes_[at].next = uint32_t(nodes_.size());
 }

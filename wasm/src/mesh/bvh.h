@@ -28,11 +28,9 @@ struct Box {
 
 class TriangleTree {
  public:
-  explicit TriangleTree(Work& work) : work_(work), charge_(work) {}
-
-  /// Makes the tree for the faces [from, to) of a mesh. O(m log m) time, about 70 bytes a face, and 30 more meanwhile. False when the work
-  /// ended.
-  bool build(MeshView mesh, uint32_t from, uint32_t to);
+  /// Makes the tree for the faces [from, to) of a mesh. O(m log m) time, about 70 bytes a face, which are charged to
+  /// `charge`, and 30 more meanwhile. False when the work ended.
+  bool build(MeshView mesh, uint32_t from, uint32_t to, Work& work, Charge& charge);
   /// Fits the boxes to other positions of the same faces. O(m) time.
   void refit(MeshView mesh);
 
@@ -68,10 +66,8 @@ class TriangleTree {
     Vec3 centre;
     uint32_t face;
   };
-  void divide(ArrayView<Item> items);
+  void divide(ArrayView<Item> items, Work& work);
 
-  Work& work_;
-  Charge charge_;
   std::vector<Node> nodes_;
   std::vector<uint32_t> faces_;
 };

@@ -77,39 +77,45 @@ struct HoleFiller::Hole {
   }
 };
 
-HoleFiller::HoleFiller(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims,
-                       Work& work)
-    : mesh_(mesh), adjacency_(adjacency), rims_(rims), work_(work), charge_(work), tree_(work) {}
-
-bool HoleFiller::prepare() {
-  const size_t n = mesh_.positions.size() / 3, m = mesh_.faces.size() / 3;
-  if (!reserve(fanStarts_, n + 1, charge_) || !reserve(fans_, 3 * m, charge_) ||
-      !reserve(local_, n, charge_) || !reserve(isOfTwoRims_, n, charge_))
+bool survey(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work,
+            Charge& charge, Surroundings& result) {
+  const size_t n = mesh.positions.size() / 3, m = mesh.faces.size() / 3;
+  std::vector<uint32_t>&starts = result.fanStarts, &fans = result.fans;
+  if (!reserve(starts, n + 1, charge) || !reserve(fans, 3 * m, charge) ||
+      !reserve(result.isOfTwoRims, n, charge))
     return false;
-  fanStarts_.assign(n + 1, 0);
-  const auto counts = [&](size_t f) { return adjacency_.corners[3 * f] != kNone; };
+  starts.assign(n + 1, 0);
+  const auto counts = [&](size_t f) { return adjacency.corners[3 * f] != kNone; };
   for (size_t f = 0; f < m; ++f)
     if (counts(f))
-      for (int k = 0; k < 3; ++k) ++fanStarts_[mesh_.faces[3 * f + k] + 1];
-  for (size_t v = 0; v < n; ++v) fanStarts_[v + 1] += fanStarts_[v];
-  fans_.assign(fanStarts_[n], 0);
-  std::vector<uint32_t> next(fanStarts_.begin(), fanStarts_.end() - 1);
+      for (int k = 0; k < 3; ++k) ++starts[mesh.faces[3 * f + k] + 1];
+  for (size_t v = 0; v < n; ++v) starts[v + 1] += starts[v];
+  fans.assign(starts[n], 0);
+  std::vector<uint32_t> next(starts.begin(), starts.end() - 1);
   for (size_t f = 0; f < m; ++f)
     if (counts(f))
-      for (int k = 0; k < 3; ++k) fans_[next[mesh_.faces[3 * f + k]]++] = uint32_t(f);
-  local_.assign(n, kNone);
+      for (int k = 0; k < 3; ++k) fans[next[mesh.faces[3 * f + k]]++] = uint32_t(f);
   // How many rims there are at each vertex, up to two.
-  isOfTwoRims_.assign(n, 0);
-  for (const uint32_t v : rims_.vertices)
-    if (isOfTwoRims_[v] < 2) ++isOfTwoRims_[v];
-  for (uint8_t& count : isOfTwoRims_) count = count == 2;
-  return work_.tick(20 * (uint64_t(n) + m)) && tree_.build(mesh_, 0, uint32_t(m));
+  result.isOfTwoRims.assign(n, 0);
+  for (const uint32_t v : rims.vertices)
+    if (result.isOfTwoRims[v] < 2) ++result.isOfTwoRims[v];
+  for (uint8_t& count : result.isOfTwoRims) count = count == 2;
+  return work.tick(20 * (uint64_t(n) + m)) && result.tree.build(mesh, 0, uint32_t(m), work, charge);
 }
+
+HoleFiller::HoleFiller(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims,
+                       const Surroundings& around, Work& work)
+    : mesh_(mesh),
+      adjacency_(adjacency),
+      rims_(rims),
+      around_(around),
+      work_(work),
+      charge_(work) {}
 
 bool HoleFiller::isInFace(uint32_t a, uint32_t b, uint32_t c) const {
   if (a >= mesh_.positions.size() / 3) return false;
-  for (uint32_t i = fanStarts_[a]; i < fanStarts_[a + 1]; ++i) {
-    const uint32_t* f = mesh_.faces.data() + 3 * size_t(fans_[i]);
+  for (uint32_t i = around_.fanStarts[a]; i < around_.fanStarts[a + 1]; ++i) {
+    const uint32_t* f = mesh_.faces.data() + 3 * size_t(around_.fans[i]);
     const auto has = [&](uint32_t v) { return f[0] == v || f[1] == v || f[2] == v; };
     if (has(b) && (c == kNone || has(c))) return true;
   }
@@ -133,6 +139,8 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
   span.perimeterWeight = options.perimeterWeight;
   span.dihedralWeight = options.dihedralWeight;
   span.boundaryNormals = normals;
+  // Then there is something to keep when the time is over.
+  span.bestSoFar = options.clock != nullptr;
 
   // Wider spaces only where narrower ones hold nothing, or only a surface with vertices on the rim.
   std::vector<Space> spaces{options.space};
@@ -155,12 +163,15 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
     }
     if (found.found && found.inserted.empty()) break;
     reason = found.found ? FillReason::InsertedVertices : FillReason::NoSurface;
+    if (found.found && found.inserted.size() <= options.refining.maxNewVertices)
+      result.splits = splitsOf(hole, found);
     found.found = false;
   }
   if (!found.found) {
     result.reason = reason;
     return Status::Ok;
   }
+  result.splits.clear();
   result.cost = found.cost, result.lowerBound = found.lowerBound, result.optimal = found.optimal;
 
   // The triangle at the first edge tells which way round the surface is.
@@ -189,11 +200,24 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
   return Status::Ok;
 }
 
+/// Where a span has put vertices on the rims.
+std::vector<RimSplit> HoleFiller::splitsOf(const Hole& hole, const Span& span) const {
+  std::vector<RimSplit> splits;
+  const std::vector<uint32_t> next = hole.nextCorners();
+  for (const InsertedVertex& v : span.inserted) {
+    const uint32_t corner = hole.starts[v.loop] + v.edge, edge = hole.corners[corner].edge;
+    if (edge == kNone || adjacency_.isCut(rims_.halves[edge])) return {};
+    splits.push_back({rims_.halves[edge] / 3, hole.corners[corner].vertex,
+                      hole.corners[next[corner]].vertex, v.parameter});
+  }
+  return splits;
+}
+
 /// Whether an edge that is not of the rims is in the mesh already, or may be in another patch.
 bool HoleFiller::isTaken(uint32_t a, uint32_t b) const {
   const uint32_t n = uint32_t(mesh_.positions.size() / 3);
   if (a >= n || b >= n) return false;
-  return (isOfTwoRims_[a] && isOfTwoRims_[b]) || isInFace(a, b, kNone);
+  return (around_.isOfTwoRims[a] && around_.isOfTwoRims[b]) || isInFace(a, b, kNone);
 }
 
 /// The same for the edges around a part of a hole, which cannot be split.
@@ -257,8 +281,8 @@ void HoleFiller::takeRings(Hole& hole, std::vector<uint32_t>& faces) {
   for (uint32_t ring = 0; ring < kRings; ++ring) {
     const size_t ringEnd = vertices.size();
     for (size_t i = ringStart; i < ringEnd; ++i)
-      for (uint32_t k = fanStarts_[vertices[i]]; k < fanStarts_[vertices[i] + 1]; ++k)
-        faces.push_back(fans_[k]);
+      for (uint32_t k = around_.fanStarts[vertices[i]]; k < around_.fanStarts[vertices[i] + 1]; ++k)
+        faces.push_back(around_.fans[k]);
     for (; seen < faces.size(); ++seen)
       for (int k = 0; k < 3; ++k) {
         const uint32_t v = mesh_.faces[3 * size_t(faces[seen]) + k];
@@ -274,7 +298,7 @@ void HoleFiller::takeRings(Hole& hole, std::vector<uint32_t>& faces) {
 void HoleFiller::takeSide(Hole& hole, double crease, std::vector<uint32_t>& faces) {
   for (const Corner& corner : hole.corners)
     if (corner.edge != kNone) faces.push_back(rims_.halves[corner.edge] / 3);
-  const Creases creases(mesh_, adjacency_, fanStarts_, fans_, crease);
+  const Creases creases(mesh_, adjacency_, around_.fanStarts, around_.fans, crease);
   std::vector<uint32_t> known(faces);
   std::sort(known.begin(), known.end());
   size_t stepStart = 0;
@@ -365,7 +389,7 @@ double HoleFiller::rimAngle(const Hole& hole, double* largest) const {
 /// Pairs of a face of the patch and another, both numbered as in the filled mesh.
 bool HoleFiller::findPairs(const Hole& hole, std::vector<FacePair>& pairs) {
   PatchPairs found;
-  if (!findPatchPairs(hole.surface, mesh_, tree_, kMostPairs, work_, found)) return false;
+  if (!findPatchPairs(hole.surface, mesh_, around_.tree, kMostPairs, work_, found)) return false;
   pairs.clear();
   const uint32_t shift = faceCount() - hole.surface.fixedTriangles;
   for (const FacePair p : found.others) pairs.push_back({p.first + shift, p.second});
@@ -407,11 +431,31 @@ bool HoleFiller::append(const Hole& hole) {
 
 Status HoleFiller::fill(ArrayView<const uint32_t> rims, const FillOptions& options,
                         FilledHole& result) {
+  const size_t n = mesh_.positions.size() / 3;
+  if (local_.size() < n) {
+    if (!reserve(local_, n, charge_)) return work_.status();
+    local_.assign(n, kNone);
+  }
+  const size_t positions = newPositions_.size(), faces = newFaces_.size();
+  if (options.clock) work_.limitStage(options.maxSeconds, options.clock);
+  Status status = fillWhole(rims, options, result);
+  if (work_.endStage() && status == Status::Stopped) {
+    newPositions_.resize(positions), newFaces_.resize(faces);
+    result = {};
+    result.reason = FillReason::TimeLimit;
+    result.firstFace = result.endFace = faceCount();
+    status = Status::Ok;
+  }
+  return status;
+}
+
+Status HoleFiller::fillWhole(ArrayView<const uint32_t> rims, const FillOptions& options,
+                             FilledHole& result) {
   result = {};
   if (rims.size() == 1) {
     HoleParts parts = stitchRim(mesh_, rims_, rims[0]);
     if (parts.triangles.empty() && options.crease > 0) {
-      const Creases creases(mesh_, adjacency_, fanStarts_, fans_, options.crease);
+      const Creases creases(mesh_, adjacency_, around_.fanStarts, around_.fans, options.crease);
       parts = partHole(mesh_, rims_, rims[0], creases);
     }
     bool isDone = false;
@@ -498,6 +542,10 @@ Status HoleFiller::fillPart(Hole& hole, const FillOptions& options, FilledHole& 
   surround(hole, options.crease);
   Status status = span(hole, options, result);
   if (status != Status::Ok || result.status == FillStatus::Failed) return status;
+  // The parts of a hole are of use only together.
+  bool isLate = work_.isStageOver();
+  if (isLate && hole.isPart) return Status::Stopped;
+  if (isLate) work_.endStage();
   double largest = 0;
   result.rimAngleBefore = rimAngle(hole, &largest);
 
@@ -511,22 +559,26 @@ Status HoleFiller::fillPart(Hole& hole, const FillOptions& options, FilledHole& 
   // What goes on everything around it as it was spanned, nothing should bend.
   const bool isExact = largest < kExact || isFlat(surface);
   bool isClean = false;
-  if (!isExact) {
+  if (!isExact && !isLate) {
     FairOptions fairing;
     fairing.order = 0;
-    if (options.fairing == Fairing::Auto && !findFairOrder(surface, work_, fairing.order))
+    // Late here, smoothing says so at once.
+    if (options.fairing == Fairing::Auto && !findFairOrder(surface, work_, fairing.order) &&
+        !work_.isStageOver())
       return work_.status();
     if (options.fairing == Fairing::Bending) fairing.order = 2;
     if (options.fairing == Fairing::Curvature) fairing.order = 3;
     RefineOptions refining = options.refining;
     refining.maxNewVertices = most == kNone ? kNone : most - chords;
     LocalSurface spanned;
-    if (most != kNone) spanned = surface;
+    if (most != kNone || options.clock) spanned = surface;
     Smoothed smoothed;
-    status = smoothPatchApart(surface, refining, fairing, mesh_, tree_, options.inFloats, work_,
-                              smoothed);
-    if (status != Status::Ok) return status;
-    if (most != kNone && added() + countTakenChords(hole) > most) {
+    status = smoothPatchApart(surface, refining, fairing, mesh_, around_.tree, options.inFloats,
+                              work_, smoothed);
+    isLate = status == Status::Stopped && work_.isStageOver() && !hole.isPart;
+    if (isLate) work_.endStage();
+    if (status != Status::Ok && !isLate) return status;
+    if (isLate || (most != kNone && added() + countTakenChords(hole) > most)) {
       // Refining has flipped more edges to where they have to be split: as it was spanned, there are few enough.
       surface = std::move(spanned);
     } else {
@@ -541,6 +593,7 @@ Status HoleFiller::fillPart(Hole& hole, const FillOptions& options, FilledHole& 
   isClean = isClean && added() == before;
   if (!isClean && !findPairs(hole, result.intersections)) return work_.status();
   if (!result.intersections.empty()) result.status = FillStatus::SelfIntersecting;
+  if (isLate) result.reason = FillReason::TimeLimit;
   result.rimAngleAfter = rimAngle(hole, nullptr);
   return append(hole) ? Status::Ok : work_.status();
 }

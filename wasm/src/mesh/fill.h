@@ -28,6 +28,8 @@ struct FillOptions {
   RefineOptions refining;  // new vertices on creases and chords are counted too
   bool inFloats = false;   // whether coordinates of new vertices are rounded to single precision
   double crease = 0.698;   // edges between faces that differ by more, in radians, go on; 0: none do
+  double maxSeconds = 1e300;  // by `clock`, which is null if it limits nothing
+  Clock clock = nullptr;
 };
 
 enum class FillStatus : uint8_t { Filled, SelfIntersecting, Failed };
@@ -39,9 +41,16 @@ enum class FillReason : uint8_t {
   RepeatedVertex,  // two vertices of the rims are in one place
   DuplicateFace,  // the patch would have a face or an edge that is there already, and may have no vertices of its own
   TooLarge,          // for the memory that there is
-  InsertedVertices,  // only a surface with vertices on the rim was found
+  InsertedVertices,  // only a surface with vertices on the rim was found: see `FilledHole::splits`
   Stitched,     // filled, in part at least by triangles without area between vertices in one place
   OpposedRims,  // a rim runs the other way round than the rest: a part of the mesh is inside out
+  TimeLimit,  // it took too long; filled, with the best surface until then, and perhaps not refined
+};
+
+/// A vertex to be put on an edge of a rim, at (1 - parameter) `tail` + parameter `head`.
+struct RimSplit {
+  uint32_t face, tail, head;  // of the input
+  double parameter;
 };
 
 /// A hole's patch. Vertices from `MeshView`'s count on are its own, numbered on from those of earlier patches.
@@ -56,14 +65,27 @@ struct FilledHole {
   /// Faces numbered as in the filled mesh. Patches of other holes are not looked at.
   std::vector<FacePair> intersections;
   uint32_t firstFace = 0, endFace = 0;  // in the filled mesh
+  /// With InsertedVertices: where the rims have to be split for the hole to be filled. None where the rims have edges
+  /// with other faces, which the splits would come apart from, or where there are more than `maxNewVertices`.
+  std::vector<RimSplit> splits;
 };
 
-/// Fills the groups of one mesh, one after the other. The mesh and what was found in it must outlive it.
+/// What filling has to know of a mesh, whichever hole it is.
+struct Surroundings {
+  std::vector<uint32_t> fanStarts, fans;  // [n+1], [3m] faces at each input vertex that count
+  std::vector<uint8_t> isOfTwoRims;       // [n]
+  TriangleTree tree;                      // of all faces
+};
+
+/// O(m log m) time. Memory is charged to `charge`. False once the work has ended.
+bool survey(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work,
+            Charge& charge, Surroundings& result);
+
+/// Fills the groups of one mesh, one after the other. The mesh and what is known of it must outlive it.
 class HoleFiller {
  public:
-  HoleFiller(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, Work& work);
-  /// What all holes need. O(m log m) time. False once the work has ended.
-  bool prepare();
+  HoleFiller(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims,
+             const Surroundings& around, Work& work);
 
   /// Fills a hole that is bounded by some rims. Its vertices and faces are appended.
   /// Errors: OutOfMemory, Stopped; nothing is appended then. What is wrong with the hole is said in `result`.
@@ -77,10 +99,12 @@ class HoleFiller {
 
  private:
   struct Hole;
+  Status fillWhole(ArrayView<const uint32_t> rims, const FillOptions& options, FilledHole& result);
   Status fillPart(Hole& hole, const FillOptions& options, FilledHole& result);
   Status fillParts(const HoleParts& parts, const FillOptions& options, FilledHole& result,
                    bool& isDone);
   Status span(Hole& hole, const FillOptions& options, FilledHole& result);
+  std::vector<RimSplit> splitsOf(const Hole& hole, const Span& span) const;
   void surround(Hole& hole, double crease);
   void takeRings(Hole& hole, std::vector<uint32_t>& faces);
   void takeSide(Hole& hole, double crease, std::vector<uint32_t>& faces);
@@ -105,12 +129,10 @@ class HoleFiller {
   MeshView mesh_;
   const Adjacency& adjacency_;
   const Rims& rims_;
+  const Surroundings& around_;
   Work& work_;
   Charge charge_;
-  TriangleTree tree_;
-  std::vector<uint32_t> fanStarts_, fans_;  // [n+1], [3m] faces at each input vertex that count
-  std::vector<uint8_t> isOfTwoRims_;        // [n]
-  std::vector<uint32_t> local_;             // [n] scratch: number in the hole, or kNone
+  std::vector<uint32_t> local_;  // [n] scratch: number in the hole, or kNone
   std::vector<double> newPositions_;
   std::vector<uint32_t> newFaces_;
 };

@@ -185,8 +185,10 @@ bool findIntersections(MeshView mesh, uint32_t from, uint32_t to, MeshView other
 
 bool findSelfIntersections(MeshView mesh, uint32_t from, uint32_t to, size_t most, Work& work,
                            std::vector<FacePair>& pairs) {
-  TriangleTree tree(work);
-  return tree.build(mesh, from, to) && search(mesh, from, to, mesh, tree, true, most, work, pairs);
+  Charge charge(work);
+  TriangleTree tree;
+  return tree.build(mesh, from, to, work, charge) &&
+         search(mesh, from, to, mesh, tree, true, most, work, pairs);
 }
 
 }  // namespace sf

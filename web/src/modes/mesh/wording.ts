@@ -13,6 +13,7 @@ const kReasons: Record<HoleReason, string> = {
   'too-large': 'it is too large',
   'inserted-vertices': 'its rim would have to be split',
   'opposed-rims': 'a part of the mesh around it is inside out',
+  'time-limit': 'it would take too long',
   'stitched': 'its sides touch each other, and were sewn',
   'too-many-vertices': 'its rims have too many vertices',
   'too-long': 'its rim is too long',

@@ -1,0 +1,122 @@
+// Rims that get vertices of their own, where no surface can be had without: the faces along them are split.
+import type { FlatMesh } from './compute_holes.js';
+import type { Patches } from './hole_crossings.js';
+import type { FilledHole, SplitFace } from './types.js';
+
+/** A vertex to be put on an edge of a face, at (1 - parameter) `tail` + parameter `head`. */
+export interface RimSplit {
+  readonly face: number;
+  readonly tail: number;
+  readonly head: number;
+  readonly parameter: number;
+}
+
+/** By groups, which all need all of theirs. */
+export type RimSplits = ReadonlyMap<number, readonly RimSplit[]>;
+
+/** A mesh with some of its faces split: old vertices and faces first, each split face as its first piece. */
+export interface SplitMesh {
+  readonly mesh: FlatMesh;
+  readonly splitFaces: readonly SplitFace[];
+}
+
+/** Splits faces. The shape stays as it is, and so do attributes. */
+export function splitRims(mesh: FlatMesh, splits: readonly RimSplit[]): SplitMesh {
+  const old = mesh.positions.length / 3;
+  const round = mesh.single ? Math.fround : (x: number): number => x;
+  const between = ({ tail, head, parameter: t }: RimSplit, data: ArrayLike<number>, size: number, k: number): number =>
+    (1 - t) * data[size * tail + k] + t * data[size * head + k];
+  const withVertices = <A extends Float64Array | Float32Array>(data: A, size: number): A => {
+    const longer = new (data.constructor as new (length: number) => A)(data.length + size * splits.length);
+    longer.set(data);
+    splits.forEach((split, i) => {
+      for (let k = 0; k < size; k++) longer[size * (old + i) + k] = round(between(split, data, size, k));
+    });
+    return longer;
+  };
+  const byFaces = new Map<number, Sides>();
+  splits.forEach(({ face, tail, head, parameter }, i) => {
+    const sides = byFaces.get(face) ?? new Map<string, OnSide[]>();
+    byFaces.set(face, sides);
+    const [side, at] = tail < head ? [`${tail} ${head}`, parameter] : [`${head} ${tail}`, 1 - parameter];
+    sides.set(side, [...(sides.get(side) ?? []), { vertex: old + i, at }]);
+  });
+  const faces = mesh.faces.slice();
+  const further: number[] = [];
+  const splitFaces = [...byFaces].map(([face, sides]): SplitFace => {
+    for (const list of sides.values()) list.sort((a, b) => a.at - b.at);
+    const [a, b, c] = mesh.faces.subarray(3 * face, 3 * face + 3);
+    const [corners, ...rest] = piecesOf([a, b, c], sides);
+    faces.set(corners, 3 * face);
+    const first = (faces.length + further.length) / 3;
+    for (const piece of rest) further.push(...piece);
+    return { face, corners: Uint32Array.from(corners), first, count: rest.length };
+  });
+  const all = new Uint32Array(faces.length + further.length);
+  all.set(faces);
+  all.set(further, faces.length);
+  const attributes =
+    mesh.attributes &&
+    Object.fromEntries(Object.entries(mesh.attributes).map(([name, { data, size }]) => [name, { data: withVertices(data, size), size }]));
+  const split = { positions: withVertices(mesh.positions, 3), faces: all, single: mesh.single, ...(attributes && { attributes }) };
+  return { mesh: split, splitFaces };
+}
+
+interface OnSide {
+  readonly vertex: number;
+  /** 0 at the end of the lower number, 1 at the other. */
+  readonly at: number;
+}
+
+/** The vertices on the sides of a face, by the numbers of their ends, in order from the lower one. */
+type Sides = Map<string, OnSide[]>;
+
+type Triangle = readonly [number, number, number];
+
+/** Splits a triangle at a vertex on a side, as long as there is one. None of the pieces is without area. */
+function piecesOf([a, b, c]: Triangle, sides: Sides): Triangle[] {
+  for (const [p, q, r] of [[a, b, c], [b, c, a], [c, a, b]] as const) {
+    const [low, high] = p < q ? [p, q] : [q, p];
+    const list = sides.get(`${low} ${high}`);
+    if (!list) continue;
+    const middle = list.length >> 1;
+    const { vertex } = list[middle];
+    // The vertex has a higher number than both ends.
+    const [below, above] = [list.slice(0, middle), list.slice(middle + 1).reverse()];
+    const rest = new Map(sides);
+    rest.delete(`${low} ${high}`);
+    if (below.length > 0) rest.set(`${low} ${vertex}`, below);
+    if (above.length > 0) rest.set(`${high} ${vertex}`, above);
+    return [...piecesOf([p, vertex, r], rest), ...piecesOf([vertex, q, r], rest)];
+  }
+  return [[a, b, c]];
+}
+
+/**
+ * Patches of a mesh, and those of holes whose rims were split, as patches of the split mesh.
+ * @param first numbered on from the mesh before
+ * @param second numbered on from the split mesh
+ * @param groups those that are of `second`
+ */
+export function joined(before: FlatMesh, { mesh }: SplitMesh, first: Patches, second: Patches, groups: readonly number[]): Patches {
+  const shifted = (from: number, by: number) => (number: number): number => (number < from ? number : number + by);
+  const [oldVertices, oldFaces] = [before.positions.length / 3, before.faces.length / 3];
+  const [vertices, faces] = [mesh.positions.length / 3, mesh.faces.length / 3];
+  const faceOfFirst = shifted(oldFaces, faces - oldFaces);
+  const faceOfSecond = shifted(faces, first.faces.length / 3);
+  const moved = (hole: FilledHole, faceOf: (face: number) => number): FilledHole => ({
+    ...hole,
+    faces: [faceOf(hole.faces[0]), faceOf(hole.faces[1])],
+    intersections: hole.intersections.map(faceOf),
+  });
+  const isSecond = new Set(groups);
+  return {
+    holes: first.holes.map((hole, g) => (isSecond.has(g) ? moved(second.holes[g], faceOfSecond) : moved(hole, faceOfFirst))),
+    positions: Float64Array.from([...first.positions, ...second.positions]),
+    faces: Uint32Array.from([
+      ...first.faces.map(shifted(oldVertices, vertices - oldVertices)),
+      ...second.faces.map(shifted(vertices, first.positions.length / 3)),
+    ]),
+    splits: new Map(),
+  };
+}
