@@ -20,9 +20,7 @@ Box Box::ofTriangle(MeshView mesh, uint32_t face) {
   return box;
 }
 
-void Box::add(const Box& b) {
-  low = lowest(low, b.low), high = highest(high, b.high);
-}
+void Box::add(const Box& b) { low = lowest(low, b.low), high = highest(high, b.high); }
 
 double Box::reach() const {
   double most = 0;
