@@ -350,8 +350,14 @@ export function functionSlots(functions: Functions, more: Readonly<Record<string
       kind: ['missing'],
       density: ['missing', 'fraction'],
       maxNewVertices: kLimit,
+      fixed: ['missing', 'empty array', 'short array'],
+      boundaryNormals: ['missing'],
       ...more,
     }),
+    ...slots('smoothSurface, options', ['bad-option', 'bad-normals'], [
+      ['fixed[1]', (v) => smooth(kTwoHoles, { fixed: [0, v] })],
+      ['boundaryNormals, of a plate', (v) => smooth(kTwoHoles, { kind: 'thin-plate', boundaryNormals: v }), ['missing'], /`boundaryNormals`/],
+    ]),
     ...slots('fillHoles, options', ['bad-option', 'bad-weights'], [
       ['holes[0]', (v) => fill(kTwoHoles, { holes: [v] })],
       ['groups[0]', (v) => fill(kTwoHoles, { groups: [v] }), ['short array']],
