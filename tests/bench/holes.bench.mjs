@@ -4,7 +4,9 @@
 //   node holes.bench.mjs <folder or -> <results.json> [words…]
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
-import { fillHoles, findHoles, load } from 'soapfilm';
+import { fillHoles, findHoles, load, smoothSurface, spanLoops } from 'soapfilm';
+import { createWorker } from 'soapfilm/worker';
+import { farthest, minimalSurfaces } from './minimal_surfaces.mjs';
 import { countCrossings, rimAngle, rmsBetween, topology } from './hole_measures.mjs';
 
 const [folder, results, ...words] = process.argv.slice(2);
@@ -254,8 +256,32 @@ function told(title, mesh, { seconds: took, result }) {
   return { title, seconds: took, holes, added };
 }
 
-await load({ parts: ['meshes'] });
-const found = { meshes: [], times: [] };
+/** Median seconds on the clock of warm runs with one worker and with two, in turns; and whether they give the same. */
+async function measureWorkers(mesh) {
+  const films = await Promise.all([1, 2].map((size) => createWorker({ parts: ['meshes'], size })));
+  const times = films.map(() => []);
+  const results = [];
+  for (let i = 0; i <= kRuns; i++) {
+    for (const [k, film] of films.entries()) {
+      const start = performance.now();
+      results[k] = await film.fillHoles(mesh);
+      if (i > 0) times[k].push((performance.now() - start) / 1000);
+    }
+  }
+  for (const film of films) film.dispose();
+  const [one, two] = times.map(median);
+  const isSame = results[0].mesh.positions.every((x, i) => x === results[1].mesh.positions[i]);
+  return { one, two, isSame };
+}
+
+function measureFilm(surface) {
+  const span = spanLoops(surface.loops, { candidates: 'delaunay' });
+  const { seconds: took, result } = timed(() => smoothSurface(span, { kind: 'soap-film', ...surface.options }));
+  return { name: surface.name, triangles: result.triangles.length / 3, off: farthest(result, surface), seconds: took };
+}
+
+await load({ parts: ['loops', 'meshes'] });
+const found = { meshes: [], times: [], films: [] };
 const isThere = existsSync(path.join(folder, 'truth.json'));
 if (isThere) {
   const truth = JSON.parse(readFileSync(path.join(folder, 'truth.json'), 'utf8')).meshes;
@@ -286,6 +312,10 @@ if (words.length === 0) {
     found.times.push({ title: 'bunny2-455: found', seconds: finding });
     time('bunny2-455: filled alone', bunny, { density: 0, fairness: 0 });
     time('bunny2-455: filled, refined and faired', bunny, {});
+    const workers = await measureWorkers(bunny);
+    const ratio = `${(workers.one / workers.two).toFixed(2)} ×${workers.isSame ? '' : ', NOT THE SAME'}`;
+    console.log(`${left('  by one worker, by two, on the clock; ratio', 62)}${right(seconds(workers.one), 9)}${right(seconds(workers.two), 9)}   ${ratio}`);
+    found.times.push({ title: 'bunny2-455: two workers', ...workers });
     const many = manyFaces(fillHoles(readMesh('bunny')).mesh, 0.9e6, 81);
     time(`${(many.faces.length / 3e6).toFixed(2)} M faces, 81 small holes: patches`, many, { output: 'patches' }, 2);
   }
@@ -293,5 +323,11 @@ if (words.length === 0) {
   const rim = findHoles(sphere).loops[0].vertices.length;
   time(`a hole of ${rim} vertices, a third of a sphere: filled alone`, sphere, { density: 0, fairness: 0 }, 2);
   time('  to 20 000 triangles, refined and faired', sphere, { maxNewVertices: 11700, density: 2 }, 2);
+  console.log('\nSoap films: largest distance of free vertices from the exact surface, in radii');
+  for (const surface of minimalSurfaces) {
+    const film = measureFilm(surface);
+    found.films.push(film);
+    console.log(`${left(`${film.name}, ${film.triangles} triangles`, 53)}${right(film.off.toExponential(1), 9)}${right(seconds(film.seconds), 9)}`);
+  }
 }
 writeFileSync(results, `${JSON.stringify(found, null, 1)}\n`);

@@ -54,11 +54,15 @@ const kPage: Readonly<Partial<Record<string, readonly string[]>>> = (() => {
 const kPublic = [
   'soapfilm',
   'soapfilm/worker',
+  'soapfilm/files',
   'soapfilm/loops.wasm',
   'soapfilm/polygons.wasm',
   'soapfilm/meshes.wasm',
   'soapfilm/package.json',
 ];
+
+/** Packages that the build bundles into a module of wasm/ts. */
+const kBundled: Readonly<Partial<Record<string, readonly string[]>>> = { glb: ['@gltf-transform/core'] };
 
 /** Words that only wasm/ts/runtime.ts has a use for. */
 const kMemory = /\bmemory\.buffer\b|\bWebAssembly\.(Instance|Memory|instantiate)\b|\bsf_(alloc|free|result_\w+)\b/;
@@ -141,6 +145,8 @@ function judgeLibrary({ path: file, text }: SourceFile): string[] {
   for (const target of imports(text)) {
     if (target.startsWith('node:')) {
       if (!/(^|_)node(_|$)/.test(name)) reasons.push(`imports ${target} outside a Node file`);
+    } else if (kBundled[name]?.includes(target)) {
+      continue;
     } else if (!/^\.\/[a-z_]+\.js$/.test(target)) {
       reasons.push(`imports ${target}, which is not a module of wasm/ts`);
     } else if (/^\.\/(index|node)\.js$/.test(target) && !/^(index|node|worker_node)$/.test(name)) {

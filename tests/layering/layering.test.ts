@@ -58,6 +58,7 @@ describe('layers', () => {
     ['statuses by their table', 'wasm/src/base/status.h', '#include "soapfilm_tables.h"'],
     ['a test of the core', 'tests/cpp/a.cpp', '#include "loops/span.h"'],
     ['Node in a Node file', 'wasm/ts/node_host.ts', "import { Worker } from 'node:worker_threads';"],
+    ['a package where it is bundled', 'wasm/ts/glb.ts', "import { Document } from '@gltf-transform/core';"],
     ['the library by name', 'web/src/a.ts', "import { load } from 'soapfilm';\nimport * as t from 'three';"],
     ['a test of the page', 'tests/page/a.test.ts', "import { join } from '../../web/src/a.ts';"],
     ['a mode on the core', 'web/src/modes/film/a.tsx', "import { Section } from '../../app/controls.tsx';\nimport { b } from './b.ts';"],

@@ -9,9 +9,10 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { list, packAndInstall, type Consumer } from './consumer.ts';
 
 // An app that spans two loops on the main thread and in a worker, triangulates a polygon in either, opens a
-// session on it in a worker, fills a cube without its lid in either, and says so in its title.
+// session on it in a worker, fills a cube without its lid in either, has it in files and back, and says so in its title.
 const kApp = `
   import { fillHoles, load, spanLoops, triangulatePolygon } from 'soapfilm';
+  import { readMesh, writeMesh } from 'soapfilm/files';
   import { createWorker } from 'soapfilm/worker';
   const ring = (count, z) => Array.from({ length: count }, (_, i) =>
     [Math.cos(2 * Math.PI * i / count), Math.sin(2 * Math.PI * i / count), z]);
@@ -29,6 +30,7 @@ const kApp = `
       faces: Uint32Array.of(0, 2, 1, 0, 3, 2, 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7),
     };
     for (const { mesh } of [fillHoles(cube), await film.fillHoles(cube)]) found.push({ triangles: mesh.faces });
+    for (const format of ['ply', 'glb']) found.push({ triangles: (await readMesh(await writeMesh(cube, format))).faces });
     film.dispose();
     return found.map(({ triangles }) => triangles.length / 3).join(' ');
   }
@@ -36,7 +38,7 @@ const kApp = `
     (title) => (document.title = title),
     (error) => (document.title = 'failed: ' + error.message),
   );`;
-const kTitle = '14 14 7 7 7 12 12';
+const kTitle = '14 14 7 7 7 12 12 10 10';
 
 const kTypes: Readonly<Record<string, string>> = {
   '.html': 'text/html',
@@ -166,7 +168,7 @@ describe('bundlers', () => {
 
   test('no bundler: served as it is, with an import map', async () => {
     const dist = './node_modules/soapfilm/wasm/dist';
-    const map = { imports: { soapfilm: `${dist}/index.js`, 'soapfilm/worker': `${dist}/worker.js` } };
+    const map = { imports: { soapfilm: `${dist}/index.js`, 'soapfilm/worker': `${dist}/worker.js`, 'soapfilm/files': `${dist}/files.js` } };
     const html = kHtml.replace('<script', `<script type="importmap">${JSON.stringify(map)}</script><script`);
     await writeFile(path.join(consumer.folder, 'app.js'), kApp);
     await writeFile(path.join(consumer.folder, 'index.html'), html);

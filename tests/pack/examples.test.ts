@@ -121,6 +121,8 @@ describe('examples', () => {
     expect(lines[5]).toMatch(/^hole 0 alone: \d+ faces, closed: false$/);
     const file = await readFile(path.join(consumer.folder, 'torus.obj'), 'utf8');
     expect(openEdgesOf(file)).toBe(0);
+    // Read again: there is nothing left to fill.
+    expect((await run('07-fill-holes.mjs', 'again.stl', 'torus.obj')).trim()).toBe('0 of 0 filled, closed: true, 0 new faces');
   });
 
   test('08-soap-film: a catenoid to a thousandth of its radius, and none between rings too far apart', async () => {

@@ -22,7 +22,7 @@ describe('the tarball', () => {
   test('contents: the built library and its documents, nothing else', () => {
     const strange = consumer.files.filter((file) => !/^wasm\/dist\/[a-z_]+(\.d\.ts|\.js|\.wasm)$/.test(file));
     expect(strange).toEqual(['CHANGELOG.md', 'LICENSE', 'README.md', 'package.json']);
-    for (const name of ['loops.wasm', 'polygons.wasm', 'meshes.wasm', 'index.js', 'index.d.ts', 'worker.js', 'worker.d.ts']) {
+    for (const name of ['loops.wasm', 'polygons.wasm', 'meshes.wasm', 'index.js', 'index.d.ts', 'worker.js', 'worker.d.ts', 'files.js', 'files.d.ts']) {
       expect(consumer.files).toContain(`wasm/dist/${name}`);
     }
   });
@@ -63,6 +63,23 @@ describe('the tarball', () => {
       external: ['*_inline.js'],
     });
     expect(gzipSync(outputFiles[0].contents).length).toBeLessThanOrEqual(21 * 1024);
+  });
+
+  test('size: files of meshes up to 12 KB, and 22 KB more for GLB, gzipped; licences come with what is bundled', async () => {
+    const dist = path.join(consumer.folder, 'node_modules/soapfilm/wasm/dist');
+    const { outputFiles } = await build({
+      entryPoints: [path.join(dist, 'files.js')],
+      bundle: true,
+      minify: true,
+      format: 'esm',
+      write: false,
+      external: ['./glb.js'],
+    });
+    expect(gzipSync(outputFiles[0].contents).length).toBeLessThanOrEqual(12 * 1024);
+    const glb = await readFile(path.join(dist, 'glb.js'), 'utf8');
+    const [licences] = /^\/\*![^]*?\*\//.exec(glb) ?? [''];
+    expect(licences.match(/Copyright \(c\)/g)).toHaveLength(2);
+    expect(gzipSync(glb.slice(licences.length)).length).toBeLessThanOrEqual(22 * 1024);
   });
 
   test('one feature alone: brings nothing of the others', async () => {
@@ -126,14 +143,28 @@ describe('in Node', () => {
     expect((await consumer.run('worker.mjs', source)).trim()).toBe(kTriangles);
   });
 
-  test('SoapfilmError: is one class for both entries', async () => {
+  test('files: a mesh comes back from each format', async () => {
+    const source = `import { readMesh, writeMesh } from 'soapfilm/files';
+      const mesh = { positions: Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0), faces: Uint32Array.of(0, 1, 2) };
+      for (const format of ['obj', 'ply', 'stl', 'glb']) {
+        const { faces } = await readMesh(await writeMesh(mesh, format));
+        console.log(format, faces.join(' '));
+      }`;
+    expect((await consumer.run('files.mjs', source)).trim()).toBe('obj 0 1 2\nply 0 1 2\nstl 0 1 2\nglb 0 1 2');
+  });
+
+  test('SoapfilmError: is one class for all entries', async () => {
     const source = `import { SoapfilmError } from 'soapfilm';
+      import { readMesh } from 'soapfilm/files';
       import { createWorker } from 'soapfilm/worker';
       const film = await createWorker();
-      const error = await film.spanLoops([]).catch((error) => error);
-      console.log(error instanceof SoapfilmError, error.code);
+      const broken = new TextEncoder().encode('glTF and no more than that');
+      for (const call of [() => film.spanLoops([]), () => readMesh(new Uint8Array()), () => readMesh(broken)]) {
+        const error = await call().catch((error) => error);
+        console.log(error instanceof SoapfilmError, error.code);
+      }
       film.dispose();`;
-    expect((await consumer.run('error.mjs', source)).trim()).toBe('true no-loops');
+    expect((await consumer.run('error.mjs', source)).trim()).toBe('true no-loops\ntrue bad-file\ntrue bad-file');
   });
 
   test('the modules: are found by name, and load takes their bytes', async () => {
@@ -156,6 +187,7 @@ describe('in TypeScript', () => {
         fillHoles, findHoles, load, PolygonSession, spanLoops, SoapfilmError, triangulateGeoJSON, triangulatePolygon,
         triangulatePolygons, type FillOptions, type FillResult, type HoleReport, type LoopSet, type MeshInput, type PolygonOptions, type PolygonTriangulation, type SpanOptions,
       } from 'soapfilm';
+      import { readMesh, writeMesh, type MeshFile } from 'soapfilm/files';
       import { createWorker, type PolygonSessionHandle } from 'soapfilm/worker';
       const loops: LoopSet = { positions: new Float64Array(9), starts: Uint32Array.of(0, 3) };
       const options: SpanOptions = { weights: { area: 1 }, onProgress: (fraction) => fraction + 1 };
@@ -179,6 +211,8 @@ describe('in TypeScript', () => {
         const report: HoleReport = findHoles(mesh, { maxSeconds: changed.length });
         const filling: FillOptions = { holes: report.groups.map((_, g) => g), fairness: 1, perHole: { 0: { density: 0 } } };
         const filled: FillResult = await film.fillHoles(mesh, { ...filling, signal: AbortSignal.timeout(count) });
+        const file: MeshFile = await readMesh(await writeMesh(filled.mesh, 'glb', { name: 'bust' }), 'bust.glb');
+        await writeMesh(span.found ? span : fillHoles(file).mesh, file.warnings.length > 0 ? 'obj' : file.format);
         if (filled.holes[0]?.status === 'failed') fillHoles({ ...filled.mesh }, { onProgress: (fraction, hole, of) => fraction + hole + of });
         film.dispose();
       } catch (error) {
@@ -186,6 +220,8 @@ describe('in TypeScript', () => {
       }
       // @ts-expect-error: not a part
       await load({ parts: ['polygon'] });
+      // @ts-expect-error: not a format
+      await writeMesh({ positions: new Float32Array(9), faces: Uint32Array.of(0, 1, 2) }, 'fbx');
       // @ts-expect-error: not a fairness
       fillHoles({ positions: new Float32Array(9), faces: Uint32Array.of(0, 1, 2) }, { fairness: 3 });
       // @ts-expect-error: not a weight

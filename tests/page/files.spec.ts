@@ -209,7 +209,7 @@ test('a heavy span: shows progress, is cancelled, and the next one works', async
   await expect(page.getByRole('progressbar', { name: 'Spanning, over the scene' })).toBeVisible();
   await result.getByRole('button', { name: 'Cancel' }).click();
   expect((await stateOf(page)).phase).toBe('cancelled');
-  await expect(result).toContainText('Cancelled.');
+  await expect(result).toContainText('Spanning was cancelled.');
   await page.getByRole('radio', { name: 'Delaunay' }).check();
   await openWith(page, 'box.curve', kTwoSquares);
   expectSpans((await spanned(page)).span, 2);
@@ -254,4 +254,37 @@ test('several files dropped: all are opened as one step, or named', async ({ qui
   expectSpans((await spanned(page)).span, 3);
   await page.keyboard.press('Control+z');
   expect((await stateOf(page)).curves).toEqual(curves);
+});
+
+test('smoothing that is cancelled: said, done when tried again; meanwhile the span is exported if that is wanted', async ({ quietPage: page }) => {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await openPage(page);
+  const { span } = await spanned(page);
+  let release: () => void = () => undefined;
+  const isReleased = new Promise<void>((resolve) => (release = resolve));
+  await page.route(/\/meshes[-_][^/]*$/, async (route) => {
+    await isReleased;
+    await route.continue();
+  });
+  const result = page.getByRole('region', { name: 'Result' });
+  await page.getByRole('radio', { name: 'Film', exact: true }).check();
+  await expect(result).toContainText('Smoothing…');
+  const exported = async () => {
+    const download = page.waitForEvent('download');
+    await page.getByRole('button', { name: 'Export as it was spanned' }).click();
+    return readFile(await (await download).path(), 'utf8');
+  };
+  await page.keyboard.press('Control+s');
+  await expect(page.locator('.toast')).toContainText('The surface is still being smoothed.');
+  expect((await exported()).match(/^v /gm)).toHaveLength(span.positions.length / 3);
+  await page.keyboard.press('Escape');
+  await expect(result).toContainText('Smoothing was cancelled.');
+  // Without it the span is what there is.
+  const download = page.waitForEvent('download');
+  await page.keyboard.press('Control+s');
+  expect((await readFile(await (await download).path(), 'utf8')).match(/^v /gm)).toHaveLength(span.positions.length / 3);
+  release();
+  await result.getByRole('button', { name: 'Try again' }).click();
+  await expect(result).toContainText('Smoothed to');
+  await expect(result).not.toContainText('cancelled');
 });

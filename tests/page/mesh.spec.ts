@@ -138,6 +138,12 @@ test('export: every format is watertight, and the old part is as it was', async 
   expect(ply.bytes.toString('latin1')).toContain(`element face ${rows('f').length}\n`);
   const stl = await exported(page, 'STL');
   expect(stl.bytes.readUInt32LE(80)).toBe(rows('f').length);
+  const glb = await exported(page, 'GLB');
+  expect(glb.file).toBe('torus-filled.glb');
+  // What is exported can be opened again: there is nothing left to fill.
+  await openFile(page, 'again.glb', glb.bytes);
+  await page.waitForFunction(() => window.__meshes?.document.name === 'again');
+  expect(await stateOf(page)).toMatchObject({ faces: rows('f').length, openEdges: 0 });
   expect(stl.bytes.length).toBe(84 + 50 * rows('f').length);
   for (const { bytes, file } of [obj, ply, stl]) {
     await openFile(page, file.replace('.', '-again.'), bytes);
@@ -235,7 +241,7 @@ test('broken files and meshes: are said', async ({ quietPage: page }) => {
   const first = await openTorus(page);
   const text = plyOf(tornTorus());
   for (const [name, broken, words] of [
-    ['short.ply', text.slice(0, -2000), 'Line 3209: it ends too early'],
+    ['short.ply', text.slice(0, -2000), 'Line 3208: the file ends too early'],
     ['word.ply', text.replace('end_header\n1.4', 'end_header\none'), 'Line 10: “one'],
     ['none.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n', 'Line 4: there is no vertex 9'],
   ]) {
@@ -293,6 +299,191 @@ test('a patch that crosses something: is said and marked', async ({ quietPage: p
   await expect(page.getByText('it crosses something: marked in red')).toBeVisible();
   const marked = await page.evaluate(() => window.__meshes?.patches.reduce((sum, { crossing }) => sum + crossing.length, 0));
   expect(marked).toBeGreaterThan(0);
+});
+
+/** A cube's surface of small squares, without those near the middle of one of its edges. */
+function tornCube(): { points: number[][]; faces: Face[] } {
+  const [count, points, faces, numbers] = [16, [] as number[][], [] as Face[], new Map<string, number>()];
+  const numberOf = (p: number[]): number => {
+    const key = p.join(' ');
+    const known = numbers.get(key) ?? points.push(p) - 1;
+    numbers.set(key, known);
+    return known;
+  };
+  for (let axis = 0; axis < 3; axis++) {
+    for (const side of [-1, 1]) {
+      for (let i = 0; i < count; i++) {
+        for (let j = 0; j < count; j++) {
+          const at = (u: number, v: number): number[] => {
+            const p = [0, 0, 0];
+            [p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3]] = [side, (2 * u) / count - 1, (2 * v) / count - 1];
+            return p;
+          };
+          const [x, y, z] = at(i + 0.5, j + 0.5);
+          if (x > 0.6 && z > 0.6 && Math.abs(y) < 0.4) continue;
+          const [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)].map(numberOf);
+          faces.push(...(side > 0 ? [[a, b, c], [a, c, d]] : [[a, c, b], [a, d, c]]) as Face[]);
+        }
+      }
+    }
+  }
+  return { points, faces };
+}
+
+test('creases: go on through a hole, unless they are not to', async ({ quietPage: page }) => {
+  await openMode(page);
+  await openFile(page, 'cube.ply', plyOf(tornCube()));
+  await page.waitForFunction(() => window.__meshes?.document.name === 'cube');
+  await stateOf(page);
+  await page.getByRole('button', { name: 'Fill all', exact: true }).click();
+  /** Whether the patch has the cube's edge: vertices on it, and nowhere else. */
+  const hasEdge = async (): Promise<boolean> => {
+    expect(await stateOf(page)).toMatchObject({ openEdges: 0 });
+    const points = await page.evaluate(() => Array.from(window.__meshes?.patches[0].positions ?? []));
+    const onEdge = points.filter((x, i) => i % 3 === 0 && Math.abs(x - 1) < 1e-6 && Math.abs(points[i + 2] - 1) < 1e-6);
+    expect(onEdge).toHaveLength(points.length / 3);
+    return onEdge.length > 3;
+  };
+  expect(await hasEdge()).toBe(true);
+  await page.getByRole('switch', { name: 'Creases go on' }).uncheck();
+  expect(await hasEdge()).toBe(false);
+  const angle = page.getByRole('textbox', { name: 'From angle' });
+  await expect(angle).toBeHidden();
+  await page.keyboard.press('Control+z');
+  expect(await hasEdge()).toBe(true);
+  // The cube's edges turn by 90 degrees.
+  await angle.fill('95');
+  await angle.press('Enter');
+  expect(await hasEdge()).toBe(false);
+});
+
+test('colours of vertices: on the mesh and on patches, or not', async ({ quietPage: page }) => {
+  await openMode(page);
+  const colors = page.getByRole('switch', { name: 'Colours' });
+  await expect(colors).toBeHidden();
+  await page.getByRole('button', { name: 'Painted knot' }).click();
+  await page.waitForFunction(() => window.__meshes?.document.name === 'Painted knot');
+  await page.getByRole('button', { name: 'Fill all', exact: true }).click();
+  expect(await stateOf(page)).toMatchObject({ openEdges: 0 });
+  const strange = await page.evaluate(() => window.__meshes?.patches.filter(({ attributes, positions }) => {
+    const color = attributes?.color;
+    return color?.size !== 3 || color.data.length !== positions.length || color.data.some((x) => !(x >= 0 && x <= 1));
+  }).length);
+  expect(strange).toBe(0);
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await page.getByRole('button', { name: 'Look from plus z' }).click();
+  await colors.hover();
+  const nextPictures = () => page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); }));
+  await nextPictures();
+  expect(await changedShare(page, async () => {
+    await colors.uncheck();
+    await nextPictures();
+  })).toBeGreaterThan(0.05);
+});
+
+test('a PLY with colours: they are drawn, carried on by patches and exported', async ({ quietPage: page }) => {
+  await openMode(page);
+  const torus = tornTorus();
+  const colored = plyOf(torus)
+    .replace('property float z\n', 'property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n')
+    .replaceAll(/^-?[\d.]+(e-\d+)? \S+ \S+$/gm, (line) => `${line} 250 120 10`);
+  await openFile(page, 'orange.ply', colored);
+  await page.waitForFunction(() => window.__meshes?.document.name === 'orange');
+  await expect(page.getByRole('switch', { name: 'Colours' })).toBeChecked();
+  await page.getByRole('button', { name: 'Fill all', exact: true }).click();
+  expect(await stateOf(page)).toMatchObject({ openEdges: 0 });
+  const { bytes } = await exported(page, 'PLY');
+  expect(bytes.toString('latin1')).toContain('property uchar red\n');
+  await openFile(page, 'again.ply', bytes);
+  await page.waitForFunction(() => window.__meshes?.document.name === 'again');
+  await expect(page.getByRole('switch', { name: 'Colours' })).toBeVisible();
+});
+
+test('the list by keys: arrows go through it, Enter fills, Delete leaves, Escape chooses nothing', async ({ quietPage: page }) => {
+  await openTorus(page);
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  const rows = page.locator('.mesh-hole-name');
+  await rows.first().focus();
+  await page.keyboard.press('ArrowDown');
+  await expect(rows.nth(1)).toBeFocused();
+  expect((await stateOf(page)).chosen).toEqual([1]);
+  await page.keyboard.press('Enter');
+  expect((await stateOf(page)).holes.map(({ wish }) => wish)).toEqual([null, 'fill']);
+  await page.keyboard.press('Shift+ArrowUp');
+  expect([...(await stateOf(page)).chosen].sort()).toEqual([0, 1]);
+  await page.keyboard.press('Delete');
+  expect((await stateOf(page)).holes.map(({ wish }) => wish)).toEqual(['leave', 'leave']);
+  await page.keyboard.press('Escape');
+  expect((await stateOf(page)).chosen).toEqual([]);
+  // Delete and Enter are for the row that has the focus, whatever else is chosen.
+  await rows.first().press('Enter');
+  await rows.nth(1).focus();
+  await page.keyboard.press('Control+z');
+  await page.keyboard.press('Delete');
+  expect(await stateOf(page)).toMatchObject({ chosen: [1], holes: [{ wish: null }, { wish: 'leave' }] });
+});
+
+test('a missing band: is looked at from where the eye is, since it faces nowhere', async ({ quietPage: page }) => {
+  await openMode(page);
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await page.getByRole('button', { name: 'Look from plus z' }).click();
+  const band = page.getByRole('button', { name: /^Hole \d+ band/ });
+  await band.click();
+  await page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); }));
+  // Seen from above, as before, its rims are nearly straight: along the tube they would be circles.
+  const [width, height] = await page.evaluate(() => {
+    const now = window.__meshes;
+    const places = now?.holes[now.chosen[0]].loops.flatMap((loop) => Array.from(now.report?.loops[loop].vertices ?? [], (vertex) => now.whereIs(vertex))) ?? [];
+    const extent = (of: number[]) => Math.max(...of) - Math.min(...of);
+    return [extent(places.map(({ x }) => x)), extent(places.map(({ y }) => y))];
+  });
+  expect(width).toBeGreaterThan(1.5 * height);
+});
+
+test('hundreds of holes: the first are listed, all when asked for, made as they come into view', async ({ quietPage: page }) => {
+  await openMode(page);
+  const [rows, columns] = [90, 90];
+  const points = Array.from({ length: rows * columns }, (_, v) => [v % columns, Math.floor(v / columns), 0.2 * Math.sin(v)]);
+  const faces: Face[] = [];
+  for (let i = 0; i + 1 < rows; i++) {
+    for (let j = 0; j + 1 < columns; j++) {
+      const a = i * columns + j;
+      if (i % 4 !== 2 || j % 4 !== 2) faces.push([a, a + 1, a + columns + 1], [a, a + columns + 1, a + columns]);
+    }
+  }
+  await openFile(page, 'sieve.ply', plyOf({ points, faces }));
+  await page.waitForFunction(() => window.__meshes?.document.name === 'sieve');
+  const { holes } = await stateOf(page);
+  expect(holes.length).toBeGreaterThan(400);
+  const names = page.locator('.mesh-hole-name');
+  await expect(names).toHaveCount(200);
+  await page.getByRole('button', { name: `Show all ${holes.length}` }).click();
+  await page.getByRole('heading', { name: 'Filling' }).scrollIntoViewIfNeeded();
+  await expect(names.last()).toContainText(`Hole ${holes.length} `);
+  await names.last().click();
+  expect((await stateOf(page)).chosen).toEqual([holes.length - 1]);
+  await page.getByRole('group', { name: 'Chosen holes' }).getByRole('button', { name: 'Fill' }).click();
+  expect((await stateOf(page)).filled).toEqual([holes.length - 1]);
+});
+
+test('the help: tells of nothing that the mode does not have', async ({ quietPage: page }) => {
+  await openMode(page);
+  await page.keyboard.press('?');
+  const help = page.getByRole('dialog');
+  await expect(help).toContainText('Choose the hole');
+  for (const words of ['vertex', 'Draw', 'drawing plane', 'stroke', 'Tools']) await expect(help).not.toContainText(words);
+  await page.keyboard.press('Escape');
+  await expect(page.getByRole('toolbar', { name: 'Tools' }).getByRole('button')).toHaveCount(2);
+});
+
+test.describe('by touch', () => {
+  test.use({ hasTouch: true });
+  test('a hole that was touched in the list: is chosen, and not pointed at any more', async ({ quietPage: page }) => {
+    await openTorus(page);
+    await page.getByRole('button', { name: /^Hole 2 / }).tap();
+    expect((await stateOf(page)).chosen).toEqual([1]);
+    expect(await page.evaluate(() => window.__meshes?.hovered)).toBeNull();
+  });
 });
 
 test('open rims: are left, unless that is asked for', async ({ quietPage: page }) => {

@@ -14,6 +14,7 @@ import {
   type triangulatePolygon,
   type triangulatePolygons,
 } from 'soapfilm';
+import { readMesh, writeMesh } from 'soapfilm/files';
 import { createWorker, type Film, type PolygonSessionHandle } from 'soapfilm/worker';
 
 function detached<T extends ArrayBufferView>(view: T): T {
@@ -349,8 +350,14 @@ export function functionSlots(functions: Functions, more: Readonly<Record<string
       kind: ['missing'],
       density: ['missing', 'fraction'],
       maxNewVertices: kLimit,
+      fixed: ['missing', 'empty array', 'short array'],
+      boundaryNormals: ['missing'],
       ...more,
     }),
+    ...slots('smoothSurface, options', ['bad-option', 'bad-normals'], [
+      ['fixed[1]', (v) => smooth(kTwoHoles, { fixed: [0, v] })],
+      ['boundaryNormals, of a plate', (v) => smooth(kTwoHoles, { kind: 'thin-plate', boundaryNormals: v }), ['missing'], /`boundaryNormals`/],
+    ]),
     ...slots('fillHoles, options', ['bad-option', 'bad-weights'], [
       ['holes[0]', (v) => fill(kTwoHoles, { holes: [v] })],
       ['groups[0]', (v) => fill(kTwoHoles, { groups: [v] }), ['short array']],
@@ -441,6 +448,31 @@ export function fileSlots(): Slot[] {
       ['surface.starts', (v) => obj({ ...kSurface, starts: v }), ['missing']],
     ]),
     ...optionSlots('formatObj', (options) => obj(kSurface, options), { name: kText, precision: ['missing'] }),
+    ...meshFileSlots(),
+  ];
+}
+
+function meshFileSlots(): Slot[] {
+  const read = readMesh as (bytes: unknown, name?: unknown, options?: unknown) => Promise<unknown>;
+  const write = writeMesh as (mesh: unknown, format: unknown, options?: unknown) => Promise<unknown>;
+  const obj = new TextEncoder().encode('v 0 0 0\nf 1 1 1\n');
+  const positions = new Float64Array(9);
+  const faces = Uint32Array.of(0, 1, 2);
+  const attribute = { data: new Float32Array(9), size: 3 };
+  return [
+    ...slots('readMesh', ['bad-file'], [['bytes', (v) => read(v), [], /`bytes`|file/]]),
+    ...slots('readMesh', ['bad-option'], [['name', (v) => read(obj, v), kText]]),
+    ...optionSlots('readMesh', (options) => read(obj, '', options), { seams: ['missing'] }),
+    ...slots('writeMesh', ['bad-mesh', 'bad-attributes', 'bad-option', 'not-finite'], [
+      ['mesh', (v) => write(v, 'ply')],
+      ['mesh.positions', (v) => write({ positions: v, faces }, 'ply'), [], /\bpositions\b|Face 0 of `mesh`/],
+      ['mesh.faces', (v) => write({ positions, faces: v }, 'ply'), ['Uint32Array']],
+      ['mesh.attributes', (v) => write({ positions, faces, attributes: v }, 'ply'), kOptions],
+      ['mesh.attributes.color', (v) => write({ positions, faces, attributes: { color: v } }, 'ply'), ['missing']],
+      ['mesh.attributes.color.size', (v) => write({ positions, faces, attributes: { color: { ...attribute, size: v } } }, 'ply'), [], /\bcolor\b/],
+      ['format', (v) => write({ positions, faces }, v)],
+    ]),
+    ...optionSlots('writeMesh', (options) => write({ positions, faces }, 'obj', options), { name: kText }),
   ];
 }
 

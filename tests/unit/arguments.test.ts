@@ -179,7 +179,7 @@ const readers: [string, readonly string[], (options: object) => unknown][] = [
   ['findHoles', ['maxMemoryBytes', 'maxSeconds', 'weld'], (options) => findHoles(kTwoHoles, options)],
   ['fillHoles', kFillNames, (options) => fillHoles(kTwoHoles, options)],
   ['film.fillHoles', [...kFillNames, 'signal'], (options) => film.fillHoles(kTwoHoles, options)],
-  ['smoothSurface', ['maxMemoryBytes', 'maxSeconds', 'kind', 'density', 'maxNewVertices'], (options) => smoothSurface(kTwoHoles, options)],
+  ['smoothSurface', ['maxMemoryBytes', 'maxSeconds', 'kind', 'density', 'maxNewVertices', 'fixed', 'boundaryNormals'], (options) => smoothSurface(kTwoHoles, options)],
   ['load', ['parts', 'wasm', 'checks'], (options) => load(options)],
   ['createWorker', ['parts', 'wasm', 'checks', 'size'], (options) => createWorker(options)],
   ['formatObj', ['name', 'precision'], (options) => formatObj(kSurface, options)],

@@ -1,6 +1,7 @@
 // The mode of meshes: its examples, which loops bound one hole, and patches as part of a mesh.
 import { fillHoles, findHoles, load } from 'soapfilm';
 import { beforeAll, describe, expect, test } from 'vitest';
+import { colorsOf } from '../../web/src/modes/mesh/attributes.ts';
 import { kExamples } from '../../web/src/modes/mesh/examples.ts';
 import { holesOf, join, split } from '../../web/src/modes/mesh/grouping.ts';
 import { meshKind } from '../../web/src/modes/mesh/mesh_kind.ts';
@@ -88,6 +89,7 @@ describe('the kind', () => {
     expect(areMeshSettings({ ...kSettings, filled: ['a'] as unknown as number[] })).toBe(false);
     expect(areMeshSettings({ ...kSettings, groups: [5] as unknown as number[][] })).toBe(false);
     expect(areMeshSettings({ ...kSettings, density: 9 })).toBe(false);
+    expect(areMeshSettings({ ...kSettings, creaseAngle: 0 })).toBe(false);
   });
 });
 
@@ -105,4 +107,36 @@ test('welding: seams go, faces that fold to nothing go, all else stays in order'
   expect(countTwins(soup, [0, 1, 2, 3, 4, 5, 5])).toBe(2);
   expect(weld(soup)).toEqual({ positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0]), faces: new Uint32Array([0, 1, 2, 1, 3, 2]) });
   expect(Object.is(soup.positions[15], -0)).toBe(true);
+});
+
+describe('attributes of vertices', () => {
+  const positions = new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]);
+  const faces = new Uint32Array([0, 1, 2, 3, 4, 5]);
+  const color = { data: Float32Array.from({ length: 18 }, (_, i) => i / 18), size: 3 };
+  const uv = { data: Float32Array.from({ length: 12 }, (_, i) => i), size: 2 };
+
+  test('in a draft: kept, but for what are none of so many vertices', () => {
+    expect(meshKind.read({ positions, faces, attributes: { color, uv } })).toEqual({ positions, faces, attributes: { color, uv } });
+    for (const attributes of [5, { color: null }, { color: { ...color, size: 4 } }, { color: { data: [...color.data], size: 3 } }]) {
+      expect(meshKind.read({ positions, faces, attributes })).toEqual({ positions, faces });
+    }
+  });
+
+  test('welded: those of the first vertex at each place', () => {
+    const { attributes } = weld({ positions, faces, attributes: { color, uv } });
+    const kept = (data: Float32Array, size: number) => [0, 1, 2, 4].flatMap((v) => [...data.subarray(size * v, size * (v + 1))]);
+    expect([...(attributes?.color.data ?? [])]).toEqual(kept(color.data, 3));
+    expect([...(attributes?.uv.data ?? [])]).toEqual(kept(uv.data, 2));
+  });
+
+  test('of several meshes: what all have is of all, and drawn where it is a colour', () => {
+    const both = wholeOf([
+      newItem(meshKind, { positions, faces, attributes: { color, uv } }),
+      newItem(meshKind, { positions, faces, attributes: { uv: color, color } }),
+    ]);
+    expect(Object.keys(both.attributes ?? {})).toEqual(['color']);
+    expect(colorsOf(both)?.data).toEqual(Float32Array.from([...color.data, ...color.data]));
+    expect(colorsOf({ attributes: { color: uv } })).toBeNull();
+    expect(wholeOf([newItem(meshKind, { positions, faces }), newItem(meshKind, { positions, faces, attributes: { color } })])).not.toHaveProperty('attributes');
+  });
 });

@@ -4,7 +4,7 @@ import { createWorker, type Film } from 'soapfilm/worker';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { errorOf, rejectionOf } from '../support/errors.js';
 import { circle } from '../support/generators.ts';
-import { openEdges } from '../support/meshes.ts';
+import { openEdges, sheet } from '../support/meshes.ts';
 
 let film: Film;
 beforeAll(async () => {
@@ -102,7 +102,7 @@ describe('options', () => {
     expect(smoothSurface(rings(0.8)).isMinimal).toBe(true);
   });
 
-  test('what is no surface with one orientation: bad-mesh, with a face', () => {
+  test('what is no surface with one orientation: bad-mesh, with a face, and an edge where one is at fault', async () => {
     const { positions, triangles } = rings(0.8);
     const [a, b, c] = triangles;
     for (const wrong of [[a, b, c], [a, c, b], [a, b, b]]) {
@@ -110,6 +110,138 @@ describe('options', () => {
       expect(error.code).toBe('bad-mesh');
       expect(error.face).toBeTypeOf('number');
     }
+    // A third face at an edge inside.
+    const isInside = ([p, q]: number[]): boolean => !openEdges(triangles).some((edge) => edge === `${p} ${q}` || edge === `${q} ${p}`);
+    const inside = [[a, b], [b, c]].find(isInside) ?? [c, a];
+    const three = { positions: Float64Array.of(...positions, 9, 9, 9), triangles: Uint32Array.of(...triangles, ...inside, positions.length / 3) };
+    const error = errorOf(() => smoothSurface(three));
+    const ends = [...inside].sort((x, y) => x - y);
+    expect(error).toMatchObject({ code: 'bad-mesh', edgeVertices: ends });
+    expect(error.vertex).toBeUndefined();
+    expect(error.message).toContain(`Face ${error.face} `);
+    expect(error.message).toContain(`between vertices ${ends[0]} and ${ends[1]}`);
+    expect(await rejectionOf(film.smoothSurface(three))).toEqual(error);
     expect(errorOf(() => smoothSurface({ positions: positions.map((x, i) => (i === 9 ? NaN : x)), triangles }))).toMatchObject({ code: 'not-finite', vertex: 3 });
+  });
+});
+
+describe('fixed vertices', () => {
+  test('stay where they are, and are told; the surface goes through them', () => {
+    const { positions, faces } = sheet(8, () => 0);
+    const middle = 4 * 9 + 4;
+    const lifted = positions.map((x, i) => (i === 3 * middle + 2 ? 0.3 : x));
+    const mesh = { positions: lifted, faces };
+    for (const kind of ['soap-film', 'thin-plate', 'curvature'] as const) {
+      const surface = smoothSurface(mesh, { kind, fixed: [middle, 0] });
+      expect(surface.fixed).toEqual(Uint32Array.of(middle));
+      expect(surface.boundary.length).toBe(32);
+      expect(surface.positions.subarray(3 * 32, 3 * 33)).toEqual(lifted.subarray(3 * middle, 3 * middle + 3));
+      expect(surface.triangles).toContain(32);
+      expect(smoothSurface(mesh, { kind, fixed: Uint32Array.of(middle, 0) })).toEqual(surface);
+    }
+    expect(smoothSurface(mesh).fixed.length).toBe(0);
+  });
+
+  test('a number that is none, or twice: bad-option with its place', () => {
+    const { positions, faces } = sheet(3, () => 0);
+    const messageOf = (fixed: number[] | Uint32Array): string => {
+      const error = errorOf(() => smoothSurface({ positions, faces }, { fixed }));
+      expect(error.code).toBe('bad-option');
+      return error.message;
+    };
+    expect(messageOf([1, 16])).toContain('`fixed[1]` is vertex 16, and there are 16');
+    expect(messageOf(Uint32Array.of(16))).toContain('`fixed[0]`');
+    expect(messageOf([0, 1.5])).toContain('`fixed[1]`');
+    expect(messageOf([5, 5])).toContain('twice');
+    expect(messageOf(Uint32Array.of(5, 5))).toContain('twice');
+  });
+});
+
+describe('boundary normals', () => {
+  const kSpheres = [30, 75, 90].map((degrees) => {
+    const angle = (degrees * Math.PI) / 180;
+    return { radius: 1 / Math.sin(angle), depth: 1 / Math.tan(angle) };
+  });
+  const n = 64;
+  const loop = circle(n);
+  /** The normals of the sphere below the unit circle in the middle of each edge from a vertex to the next. */
+  const normalsOf = (depth: number): Float64Array =>
+    Float64Array.from(loop.flatMap(([x, y], i) => [(x + loop[(i + 1) % n][0]) / 2, (y + loop[(i + 1) % n][1]) / 2, depth]));
+  const off = (surface: SmoothSurface, radius: number, depth: number): number =>
+    Math.max(...pointsFrom(surface, surface.boundary.length).map(([x, y, z]) => Math.abs(Math.hypot(x, y, z + depth) / radius - 1)));
+
+  test.each(kSpheres)('of a sphere of radius $radius: a span of the circle becomes its cap', ({ radius, depth }) => {
+    const boundaryNormals = normalsOf(depth);
+    // The same list for both.
+    const span = spanLoops([loop], { boundaryNormals });
+    if (!span.found) throw new Error(span.reason);
+    const turned = { positions: span.positions, faces: span.triangles.slice().reverse() };
+    for (const kind of ['thin-plate', 'curvature'] as const) {
+      for (const given of [span, turned]) {
+        const cap = smoothSurface(given, { kind, boundaryNormals });
+        expect(cap.positions.length / 3).toBeGreaterThan(400);
+        expect(off(cap, radius, depth)).toBeLessThan(1e-3);
+      }
+    }
+  });
+
+  test('of a plane: flat; without any known: as without the option; in a worker: the same', async () => {
+    const span = spanLoops([loop]);
+    if (!span.found) throw new Error(span.reason);
+    const up = Float64Array.from(loop.flatMap(() => [0, 0, 5]));
+    const unknown = new Float64Array(3 * n).fill(NaN);
+    for (const kind of ['thin-plate', 'curvature'] as const) {
+      const flat = smoothSurface(span, { kind, boundaryNormals: up });
+      for (const [, , z] of pointsFrom(flat, 0)) expect(Math.abs(z)).toBeLessThan(1e-12);
+      expect(smoothSurface(span, { kind, boundaryNormals: unknown })).toEqual(smoothSurface(span, { kind }));
+      const boundaryNormals = normalsOf(0.5);
+      const before = boundaryNormals.slice();
+      expect(await film.smoothSurface(span, { kind, boundaryNormals, fixed: [3] })).toEqual(smoothSurface(span, { kind, boundaryNormals, fixed: [3] }));
+      expect(boundaryNormals).toEqual(before);
+    }
+  });
+
+  test('several loops in order of their least vertex, whichever way their triangles run', () => {
+    const height = 1.2;
+    const given = rings(height, 60);
+    // Out of the tube along the first ring; the second runs against the same surface.
+    const direction = (ring: number): number => {
+      const at = given.triangles.findIndex((v, i) => v === 60 * ring && given.triangles[3 * Math.floor(i / 3) + ((i + 1) % 3)] === 60 * ring + 1);
+      return at < 0 ? -1 : 1;
+    };
+    expect(direction(0)).toBe(-direction(1));
+    const normals = [0, 1].flatMap((ring) =>
+      circle(60).flatMap(([x, y], i) => {
+        const [p, q] = circle(60)[(i + 1) % 60];
+        const sign = direction(0) === direction(ring) ? 1 : -1;
+        return [(sign * (x + p)) / 2, (sign * (y + q)) / 2, 0];
+      }),
+    );
+    const straight = smoothSurface(given, { kind: 'curvature', boundaryNormals: Float64Array.from(normals) });
+    const most = Math.max(...pointsFrom(straight, straight.boundary.length).map(([x, y]) => Math.abs(Math.hypot(x, y) - 1)));
+    expect(most).toBeLessThan(5e-3);
+  });
+
+  test('what is wrong with them is told, with the edge', () => {
+    const span = spanLoops([loop]);
+    if (!span.found) throw new Error(span.reason);
+    const up = loop.flatMap(() => [0, 0, 1]);
+    const smooth = (normals: unknown, kind = 'thin-plate') =>
+      errorOf(() => smoothSurface(span, { kind, boundaryNormals: normals } as object));
+    expect(smooth(Float64Array.from(up), 'soap-film')).toMatchObject({ code: 'bad-option' });
+    expect(smooth(Float64Array.from(up), 'soap-film').message).toContain('`boundaryNormals`');
+    for (const wrong of [up, Float32Array.from(up), Float64Array.from(up.slice(1)), Float64Array.from(up.slice(3))]) {
+      expect(smooth(wrong).code).toBe('bad-normals');
+      expect(smooth(wrong).message).toContain('`boundaryNormals`');
+    }
+    expect(smooth(Float64Array.from(up.slice(3))).message).toContain(`${3 * n} numbers`);
+    for (const [x, y, z] of [[0, 0, 0], [Infinity, 0, 1], [NaN, 0, 1], loop[3].map((c, k) => c - loop[2][k])]) {
+      const normals = Float64Array.from(up);
+      normals.set([x, y, z], 6);
+      const error = smooth(normals);
+      expect(error).toMatchObject({ code: 'bad-normals', edge: 2, edgeVertices: [2, 3] });
+      expect(error.vertex).toBeUndefined();
+      expect(error.message).toContain('oundary normal 2, of the edge between vertices 2 and 3');
+    }
   });
 });

@@ -253,12 +253,19 @@ SF_API(sf_close_mesh) SfStatus sf_close_mesh(uint32_t session);
 
 /// Smooths a surface between its boundary: a soap film, or a plate.
 ///   positions, vertexCount, triangles, triangleCount   manifold, oriented, with a boundary
-///   where    out: the vertex at fault; for BadMesh and BadSurface, the triangle as `vertex`
+///   fixed    [fixedCount] vertices inside that stay where they are, or null; else BadOption
+///   boundaryNormals  [3 * normalCount] or null, not for soap films: for the edges of the boundary, by loops in order
+///            of their least vertex, each loop from that on towards the lesser of its two neighbours there: the
+///            normal, unit or not, of the surface wound along the loop in that direction; NaN triple: not known
+///   where    out: the vertex at fault; for BadMesh and BadSurface, the triangle as `vertex`, and if an edge of it is
+///            at fault its ends as `otherLoop` and `otherVertex`; for BadNormals, the edge's place in the list as
+///            `vertex`, and its ends in the same way; for BadNormalCount, the right count as `vertex`
 ///   result   out: SF_SMOOTH_ARRAYS; null unless the status is Ok
 SF_API(sf_smooth_surface)
 SfStatus sf_smooth_surface(const double* positions, uint32_t vertexCount, const uint32_t* triangles,
-                           uint32_t triangleCount, const SfSmoothSettings* settings, SfPlace* where,
-                           SfResult** result);
+                           uint32_t triangleCount, const uint32_t* fixed, uint32_t fixedCount,
+                           const double* boundaryNormals, uint32_t normalCount,
+                           const SfSmoothSettings* settings, SfPlace* where, SfResult** result);
 
 #ifdef __cplusplus
 }

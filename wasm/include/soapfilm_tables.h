@@ -11,31 +11,32 @@
 #define SOAPFILM_TABLES_H
 
 /* How a call ends. Only Ok and NotFound come with a result. */
-#define SF_STATUSES(X)                                                                      \
-  X(Ok, 0, "done")                                                                          \
-  X(NotFound, 1, "no triangulation in the candidate space: an answer, not an error")        \
-  X(NoLoops, 2, "zero loops")                                                               \
-  X(BadStarts, 3, "starts do not increase from 0 to n")                                     \
-  X(NotFinite, 4, "a coordinate is NaN or beyond 1e150")                                    \
-  X(TooFewVertices, 5, "a loop has fewer than 3 vertices")                                  \
-  X(RepeatedVertex, 6, "two vertices have the same position")                               \
-  X(LoopsIntersect, 7, "two loop edges cross, touch or overlap")                            \
-  X(BadNormals, 8, "a boundary normal is zero, infinite or partly NaN")                     \
-  X(BadWeights, 9, "a weight is negative or not finite, or all are zero")                   \
-  X(BadCandidates, 10,                                                                      \
-    "a candidate has an index out of range, is repeated or degenerate, "                    \
-    "or has a weight that is not finite")                                                   \
-  X(TooLarge, 11, "the predicted size exceeds the memory limit")                            \
-  X(OutOfMemory, 12, "the work reached the memory limit")                                   \
-  X(Stopped, 13, "sf_host_progress asked to stop")                                          \
-  X(BadOption, 14, "a setting is out of its range")                                         \
-  X(SelfIntersecting, 15, "polygons: two edges of one ring cross or overlap")               \
-  X(HoleOutside, 16, "polygons: a hole is not inside the outer ring, or crosses it")        \
-  X(HolesOverlap, 17, "polygons: two holes cross or have an edge in common")                \
-  X(NestedHole, 18, "polygons: a hole lies inside another")                                 \
-  X(DegeneratePolygon, 19, "polygons: a ring has fewer than 3 distinct points, or a spike") \
-  X(BadMesh, 20, "meshes: a face has a vertex that is not there")                           \
-  X(BadSurface, 21, "surfaces: a triangle keeps it from being manifold, oriented and bounded")
+#define SF_STATUSES(X)                                                                         \
+  X(Ok, 0, "done")                                                                             \
+  X(NotFound, 1, "no triangulation in the candidate space: an answer, not an error")           \
+  X(NoLoops, 2, "zero loops")                                                                  \
+  X(BadStarts, 3, "starts do not increase from 0 to n")                                        \
+  X(NotFinite, 4, "a coordinate is NaN or beyond 1e150")                                       \
+  X(TooFewVertices, 5, "a loop has fewer than 3 vertices")                                     \
+  X(RepeatedVertex, 6, "two vertices have the same position")                                  \
+  X(LoopsIntersect, 7, "two loop edges cross, touch or overlap")                               \
+  X(BadNormals, 8, "a boundary normal is zero, infinite or partly NaN")                        \
+  X(BadWeights, 9, "a weight is negative or not finite, or all are zero")                      \
+  X(BadCandidates, 10,                                                                         \
+    "a candidate has an index out of range, is repeated or degenerate, "                       \
+    "or has a weight that is not finite")                                                      \
+  X(TooLarge, 11, "the predicted size exceeds the memory limit")                               \
+  X(OutOfMemory, 12, "the work reached the memory limit")                                      \
+  X(Stopped, 13, "sf_host_progress asked to stop")                                             \
+  X(BadOption, 14, "a setting is out of its range")                                            \
+  X(SelfIntersecting, 15, "polygons: two edges of one ring cross or overlap")                  \
+  X(HoleOutside, 16, "polygons: a hole is not inside the outer ring, or crosses it")           \
+  X(HolesOverlap, 17, "polygons: two holes cross or have an edge in common")                   \
+  X(NestedHole, 18, "polygons: a hole lies inside another")                                    \
+  X(DegeneratePolygon, 19, "polygons: a ring has fewer than 3 distinct points, or a spike")    \
+  X(BadMesh, 20, "meshes: a face has a vertex that is not there")                              \
+  X(BadSurface, 21, "surfaces: a triangle keeps it from being manifold, oriented and bounded") \
+  X(BadNormalCount, 22, "surfaces: not one normal for each boundary edge")
 
 /* The place in the input that a status is about. A field that does not apply is 0xFFFFFFFF. */
 #define SF_PLACE_RECORD(X)                                                          \
@@ -327,11 +328,12 @@
   X(double, maxNewVertices, "most vertices that refining adds")                       \
   X(double, maxBytes, "memory limit")
 
-#define SF_SMOOTH_ARRAYS(X)                                                        \
-  X(double, positions, "[3n] the boundary's vertices as given, then those inside") \
-  X(uint32_t, triangles, "[3m] wound as given")                                    \
-  X(uint32_t, boundary, "[b] the numbers that the first b vertices had")           \
-  X(uint32_t, collapsed, "vertices where no film exists")                          \
+#define SF_SMOOTH_ARRAYS(X)                                                       \
+  X(double, positions, "[3n] the vertices that stayed as given, then all others") \
+  X(uint32_t, triangles, "[3m] wound as given")                                   \
+  X(uint32_t, boundary, "[b] the numbers that the first b vertices had")          \
+  X(uint32_t, fixed, "[f] the numbers that the next f vertices had")              \
+  X(uint32_t, collapsed, "vertices where no film exists")                         \
   X(SfSmoothNumbers, numbers, "[1]")
 
 #define SF_SMOOTH_NUMBERS_RECORD(X) \

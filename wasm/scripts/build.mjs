@@ -123,6 +123,42 @@ async function generateModules(folder) {
     writeFileSync(path.join(folder, `${name}.js`), `export default ${JSON.stringify(content)};\n`);
   }
   for (const [stem, text] of bundled) writeFileSync(path.join(folder, `${stem}.js`), text);
+  await bundlePackages(folder, 'glb');
+}
+
+/**
+ * A module with the packages that it imports, so that the library has no dependencies, and with their licences. What it
+ * imports of the library stays apart: there must be one class of errors.
+ */
+async function bundlePackages(folder, stem) {
+  const { build } = await import('esbuild');
+  const file = path.join(folder, `${stem}.js`);
+  const ofFolder = {
+    name: 'of-folder',
+    setup({ onResolve }) {
+      onResolve({ filter: /^\.\// }, (found) => (found.importer === file ? { path: found.path, external: true } : null));
+    },
+  };
+  const { outputFiles, metafile } = await build({
+    entryPoints: [file],
+    bundle: true,
+    minify: true,
+    write: false,
+    metafile: true,
+    absWorkingDir: root,
+    format: 'esm',
+    target: 'es2022',
+    external: ['node:*'],
+    plugins: [ofFolder],
+  });
+  const packages = new Set(Object.keys(metafile.inputs).flatMap((name) => /node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(name)?.[1] ?? []));
+  const licences = [...packages].sort().map((name) => {
+    const home = path.join(root, 'node_modules', name);
+    const licence = readdirSync(home).find((each) => /^licen[cs]e/i.test(each));
+    if (!licence) throw new Failure(`${name} has no file of its licence.`);
+    return `${name}:\n${readFileSync(path.join(home, licence), 'utf8').trim().replaceAll('*/', '* /')}`;
+  });
+  writeFileSync(file, `/*!\n${licences.join('\n\n')}\n*/\n${outputFiles[0].text}`);
 }
 
 export async function buildPage() {

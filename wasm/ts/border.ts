@@ -52,6 +52,8 @@ export const Status = {
   BadMesh: 20,
   /** surfaces: a triangle keeps it from being manifold, oriented and bounded */
   BadSurface: 21,
+  /** surfaces: not one normal for each boundary edge */
+  BadNormalCount: 22,
 } as const;
 
 export interface Place {
@@ -682,12 +684,14 @@ export const packSmoothSettings = (settings: SmoothSettings): Float64Array =>
   );
 
 export interface SmoothArrays {
-  /** [3n] the boundary's vertices as given, then those inside */
+  /** [3n] the vertices that stayed as given, then all others */
   readonly positions: Float64Array;
   /** [3m] wound as given */
   readonly triangles: Uint32Array;
   /** [b] the numbers that the first b vertices had */
   readonly boundary: Uint32Array;
+  /** [f] the numbers that the next f vertices had */
+  readonly fixed: Uint32Array;
   /** vertices where no film exists */
   readonly collapsed: Uint32Array;
   /** SmoothNumbers: [1] */
@@ -698,8 +702,9 @@ export const readSmoothArrays = (array: ArrayReader): SmoothArrays => ({
   positions: array(0, Float64Array),
   triangles: array(1, Uint32Array),
   boundary: array(2, Uint32Array),
-  collapsed: array(3, Uint32Array),
-  numbers: array(4, Float64Array),
+  fixed: array(3, Uint32Array),
+  collapsed: array(4, Uint32Array),
+  numbers: array(5, Float64Array),
 });
 
 export interface SmoothNumbers {

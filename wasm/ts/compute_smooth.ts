@@ -8,10 +8,20 @@ import { callCore, kDefaultMemoryBytes, shared } from './runtime.js';
 /** Settings as the core takes them, and the limits. */
 export interface SmoothWork extends Limits {
   readonly settings: Omit<Parameters<typeof packSmoothSettings>[0], 'maxBytes'>;
+  /** Vertices that stay. */
+  readonly fixed: Uint32Array;
+  readonly boundaryNormals: Float64Array | undefined;
 }
 
 export function computeSmooth(surface: BareMesh, work: SmoothWork): SmoothArrays {
-  const { settings, maxSeconds, maxMemoryBytes: maxBytes = kDefaultMemoryBytes } = work;
-  const args = [...argumentsOf(surface), packSmoothSettings({ ...settings, maxBytes })];
+  const { settings, fixed, boundaryNormals: normals, maxSeconds, maxMemoryBytes: maxBytes = kDefaultMemoryBytes } = work;
+  const args = [
+    ...argumentsOf(surface),
+    fixed,
+    fixed.length,
+    normals ?? null,
+    normals ? normals.length / 3 : 0,
+    packSmoothSettings({ ...settings, maxBytes }),
+  ];
   return callCore(shared.meshes, 'sf_smooth_surface', args, readSmoothArrays, { maxSeconds, explain: meshError }).arrays;
 }

@@ -47,6 +47,10 @@ export interface ErrorPlace {
   readonly point?: readonly number[];
   /** Index of a face of a mesh. */
   readonly face?: number;
+  /** Index in a list of edges, such as `boundaryNormals` of `smoothSurface`. */
+  readonly edge?: number;
+  /** The two vertices of an edge of a mesh. */
+  readonly edgeVertices?: readonly [number, number];
   /** Line of a text file, counted from 1. */
   readonly line?: number;
 }
@@ -62,6 +66,8 @@ export class SoapfilmError extends Error implements ErrorPlace {
   readonly polygon?: number;
   readonly point?: readonly number[];
   readonly face?: number;
+  readonly edge?: number;
+  readonly edgeVertices?: readonly [number, number];
   readonly line?: number;
 
   constructor(code: ErrorCode, message: string, place: ErrorPlace = {}, options?: ErrorOptions) {

@@ -101,7 +101,8 @@ function listOf<T>(name: string, value: unknown, read: (item: unknown, name: str
   throw mustBe('bad-option', name, 'an array', value);
 }
 
-function indicesOf(name: string, value: unknown, least = 0): number[] {
+/** A list of at least `least` different numbers of things. @throws SoapfilmError `bad-option` */
+export function indicesOf(name: string, value: unknown, least = 0): number[] {
   const list = listOf(name, value, (item, place) => {
     if (isIndex(item)) return item;
     throw mustBe('bad-option', place, 'a whole number and not negative', item);

@@ -44,7 +44,11 @@ const table: Readonly<Record<Failure, readonly [ErrorCode, (place: ErrorPlace) =
   ],
   BadNormals: [
     'bad-normals',
-    (place) => `the boundary normal of ${first(place)} is zero, infinite or NaN in part`,
+    (place) =>
+      place.edgeVertices === undefined
+        ? `the boundary normal of ${first(place)} is zero, infinite or NaN in part`
+        : `boundary normal ${place.edge}, of the edge between vertices ${place.edgeVertices.join(' and ')}, ` +
+          'is zero, infinite, NaN in part or along the edge',
   ],
   BadWeights: ['bad-weights', () => 'weights must be finite and not negative, and at least one positive'],
   BadCandidates: [
@@ -89,8 +93,15 @@ const table: Readonly<Record<Failure, readonly [ErrorCode, (place: ErrorPlace) =
   BadMesh: ['bad-mesh', ({ face }) => `face ${face} has a vertex that is not there`],
   BadSurface: [
     'bad-mesh',
-    ({ face }) =>
-      `face ${face} keeps the surface from being manifold, of one orientation and with a boundary in each part`,
+    ({ face, edgeVertices }) =>
+      edgeVertices === undefined
+        ? `face ${face} keeps the surface from being manifold, of one orientation and with a boundary in each part`
+        : `face ${face} keeps the surface from being manifold and of one orientation: ` +
+          `at its edge between vertices ${edgeVertices.join(' and ')}, not two faces meet that run alike`,
+  ],
+  BadNormalCount: [
+    'bad-normals',
+    (place) => `\`boundaryNormals\` must have ${3 * (place.vertex ?? 0)} numbers, three for each edge of the boundary`,
   ],
 };
 
@@ -127,8 +138,14 @@ export function ringError(status: number, where: Place, more?: ErrorPlace): Soap
   return statusError(status, where, 'ring', more);
 }
 
-/** The error for a mesh, of which a vertex or a face is at fault. */
+/** The error for a mesh, of which a vertex, a face or an edge is at fault. */
 export function meshError(status: number, where: Place): SoapfilmError {
-  if (status !== Status.BadMesh && status !== Status.BadSurface) return statusError(status, where);
-  return statusError(status, { ...where, vertex: kNone }, 'loop', { face: where.vertex });
+  const { vertex, otherLoop, otherVertex } = where;
+  const more: ErrorPlace = {
+    ...((status === Status.BadMesh || status === Status.BadSurface) && { face: vertex }),
+    ...(status === Status.BadNormals && { edge: vertex }),
+    ...(otherVertex !== kNone && { edgeVertices: [otherLoop, otherVertex] as const }),
+  };
+  if (Object.keys(more).length === 0) return statusError(status, where);
+  return statusError(status, { loop: kNone, vertex: kNone, otherLoop: kNone, otherVertex: kNone }, 'loop', more);
 }

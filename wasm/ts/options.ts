@@ -63,7 +63,14 @@ export const kHoleFillOptions: Names<HoleFillOptions> = {
 
 export const kHoleOptions: Names<HoleOptions> = { ...kLimits, weld: true };
 
-export const kSmoothOptions: Names<SmoothOptions> = { ...kLimits, kind: true, density: true, maxNewVertices: true };
+export const kSmoothOptions: Names<SmoothOptions> = {
+  ...kLimits,
+  kind: true,
+  density: true,
+  maxNewVertices: true,
+  fixed: true,
+  boundaryNormals: true,
+};
 
 export const kSessionFillOptions: Names<SessionFillOptions> = {
   ...kLimits,

@@ -11,10 +11,11 @@ import type { MeshInput, SmoothOptions, SmoothSurface } from './types.js';
  * least. It begins from any triangulation, such as one of `spanLoops`, and refines it first.
  *
  * @param surface manifold, oriented, with a boundary
- * @throws SoapfilmError `not-loaded`; `bad-mesh` with a `face` that keeps it from being such a surface, `not-finite`;
- *   `bad-option`; `too-large`, `out-of-memory`, `time-limit`; `crashed`
+ * @throws SoapfilmError `not-loaded`; `bad-mesh` with a `face` that keeps it from being such a surface, and the `edgeVertices` of an edge at
+ *   fault, `not-finite`;
+ *   `bad-option`, `bad-normals`; `too-large`, `out-of-memory`, `time-limit`; `crashed`
  */
 export function smoothSurface(surface: MeshInput, options: SmoothOptions = {}): SmoothSurface {
   const flat = flattenMesh(surface, false, 'surface');
-  return smoothOf(computeSmooth(flat, smoothWorkOf(optionsOf(options, kSmoothOptions))));
+  return smoothOf(computeSmooth(flat, smoothWorkOf(optionsOf(options, kSmoothOptions), flat, false)));
 }

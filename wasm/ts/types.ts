@@ -627,15 +627,28 @@ export interface SmoothOptions extends Omit<HoleOptions, 'weld'> {
   readonly density?: number;
   /** Most new vertices. */
   readonly maxNewVertices?: number;
+  /** Numbers of vertices inside that stay where they are, as those of the boundary do. */
+  readonly fixed?: Uint32Array | readonly number[];
+  /**
+   * `[3b]` normals of what the surface goes on smoothly at its boundary; without them, it leaves its boundary as it will.
+   * Not for soap films, which always do. Each edge of the boundary has three numbers: by loops in order of their least
+   * vertex, each loop from that on towards the lesser of its two neighbours in it. So `boundaryNormals` of `spanLoops`
+   * fit its result, unless vertices were inserted. As there, a normal is that of a surface that is wound along its loop
+   * in this direction, or NaN where none is known; the surface's own triangles may run the other way. Of a vertex both
+   * edges must be known, or it counts as if none were.
+   */
+  readonly boundaryNormals?: Float64Array;
 }
 
 export interface SmoothSurface {
-  /** `[3n]`: the vertices of the boundary, exactly as given, then those inside. */
+  /** `[3n]`: the vertices of the boundary and those of `fixed`, exactly as given, then all others. */
   readonly positions: Float64Array;
   /** `[3m]`, wound as given. */
   readonly triangles: Uint32Array;
   /** `[b]` the numbers that the first b vertices had in the input. */
   readonly boundary: Uint32Array;
+  /** `[f]` the same for the next f vertices, which the option `fixed` names and which are not on the boundary. */
+  readonly fixed: Uint32Array;
   /** Vertices where the film has shrunk to a thread: there is none, as between rings that are too far apart. */
   readonly collapsed: Uint32Array;
   readonly area: number;

@@ -66,7 +66,7 @@ export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
     async smoothSurface(surface, options = {}) {
       const flat = flattenMesh(surface, true, 'surface');
       const [given, signal] = callOptionsOf(options, kSmoothOptions);
-      return smoothOf(await pool.call('smoothSurface', [flat, smoothWorkOf(given)], { signal }));
+      return smoothOf(await pool.call('smoothSurface', [flat, smoothWorkOf(given, flat, true)], { signal }));
     },
   };
 }

@@ -151,9 +151,16 @@ void fill(const Mesh& mesh, const SfResult* holes, Bytes& in) {
 
 void smooth(const Mesh& mesh, Bytes& in) {
   const SfSmoothSettings settings{double(in.below(3)), in.below(4) * 0.7, 2.0 * in.byte(), 64e6};
+  std::vector<uint32_t> fixed;
+  for (uint32_t i = in.below(4); i > 0; --i) fixed.push_back(in.below(mesh.vertexCount() + 1));
+  std::vector<double> normals;
+  for (uint32_t i = 3 * in.below(40); i > 0; --i)
+    normals.push_back(in.below(9) == 0 ? std::nan("") : in.below(5) - 2.0);
   SfPlace where;
   SfResult* result = nullptr;
   sf_smooth_surface(mesh.positions.data(), mesh.vertexCount(), mesh.faces.data(), mesh.faceCount(),
+                    fixed.data(), uint32_t(fixed.size()),
+                    normals.empty() ? nullptr : normals.data(), uint32_t(normals.size() / 3),
                     &settings, &where, &result);
   if (result == nullptr) return;
   size_t coordinates;

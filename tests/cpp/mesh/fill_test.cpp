@@ -286,12 +286,12 @@ TEST_CASE(
 TEST_CASE("fill: no refining, no fairing, and only so many vertices") {
   const TestMesh cut = without(sphereMesh(4), isNear({0, 0, 1}, 0.6));
   FillOptions options;
-  options.density = 0, options.fairing = Fairing::None;
+  options.refining.density = 0, options.fairing = Fairing::None;
   const Filled plain = fillAll(cut, options);
   expectWhole(plain, 1);
   CHECK(plain.mesh.vertexCount() == cut.vertexCount());
   CHECK(plain.holes[0].optimal);
-  options.density = 1.5, options.maxNewVertices = 20;
+  options.refining.density = 1.5, options.refining.maxNewVertices = 20;
   CHECK(fillAll(cut, options).mesh.vertexCount() <= cut.vertexCount() + 20);
   options.fairing = Fairing::Bending;
   CHECK(fillAll(cut, options).holes[0].fairnessUsed == 2);
@@ -321,7 +321,7 @@ TEST_CASE("fill: never more than so many vertices, on creases and on edges that 
       for (uint32_t most = 0; most < 12; ++most) {
         CAPTURE(density);
         CAPTURE(most);
-        options.density = density, options.maxNewVertices = most;
+        options.refining.density = density, options.refining.maxNewVertices = most;
         const Filled filled = fillAll(*mesh, options, true);
         CHECK(filled.mesh.vertexCount() <= mesh->vertexCount() + most * filled.holes.size());
         for (const FilledHole& hole : filled.holes) {

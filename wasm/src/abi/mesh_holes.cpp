@@ -91,10 +91,10 @@ sf::FillOptions optionsOf(const SfPatchSettings& s) {
   options.dihedralWeight = s.dihedralWeight;
   options.space = sf::Space(int(s.space));
   options.fairing = sf::Fairing(int(s.fairing));
-  options.density = s.density;
+  options.refining.density = s.density;
   options.crease = s.crease;
   options.inFloats = s.inFloats == 1;
-  options.maxNewVertices = sf::vertexLimit(s.maxNewVertices);
+  options.refining.maxNewVertices = sf::vertexLimit(s.maxNewVertices);
   options.maxSeconds = s.maxSeconds;
   if (std::isfinite(s.maxSeconds)) options.clock = sf_host_seconds;
   return options;

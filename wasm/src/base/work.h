@@ -42,7 +42,7 @@ class Work {
 
   /// Counts `units` of about a nanosecond, and calls the progress function now and then. False once
   /// the work has to end for whatever reason: return at once, and free what you hold.
-  bool tick(uint32_t units) {
+  bool tick(uint64_t units) {
     pending_ += units;
     if (pending_ >= kUnitsPerReport) report();
     return status_ == Status::Ok;
@@ -149,9 +149,8 @@ class Work {
   ProgressFunction progress_ = nullptr;
   void* user_ = nullptr;
   uint64_t used_ = 0, peak_ = 0;  // 64 bits: sums are compared with the limit afterwards
-  uint32_t pending_ = 0;
-  uint64_t spent_ = 0, allowed_ = ~uint64_t(0);  // units
-  bool isPaused_ = false;                        // only the allowance ended the work
+  uint64_t pending_ = 0, spent_ = 0, allowed_ = ~uint64_t(0);  // units
+  bool isPaused_ = false;                                      // only the allowance ended the work
   double stageStart_ = 0, stageEnd_ = 1;
   Clock clock_ = nullptr;  // of the stage's limit, if it has one
   double deadline_ = 0;

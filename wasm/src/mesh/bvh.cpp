@@ -20,10 +20,7 @@ Box Box::ofTriangle(MeshView mesh, uint32_t face) {
   return box;
 }
 
-void Box::add(const Box& b) {
-  low = {std::fmin(low.x, b.low.x), std::fmin(low.y, b.low.y), std::fmin(low.z, b.low.z)};
-  high = {std::fmax(high.x, b.high.x), std::fmax(high.y, b.high.y), std::fmax(high.z, b.high.z)};
-}
+void Box::add(const Box& b) { low = lowest(low, b.low), high = highest(high, b.high); }
 
 double Box::reach() const {
   double most = 0;

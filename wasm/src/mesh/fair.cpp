@@ -25,17 +25,23 @@ ArrayView<const uint32_t> surroundings(const LocalSurface& surface) {
 
 class Fairing {
  public:
-  Fairing(const LocalSurface& surface, Work& work) : surface_(surface), work_(work) { findNear(); }
+  ///   unit  of the places that are faired
+  Fairing(const LocalSurface& surface, double unit, Work& work)
+      : surface_(surface), work_(work), clamps_(surface.clamps) {
+    for (Clamp& clamp : clamps_) clamp.pull = (1 / unit) * clamp.pull;
+    findNear();
+  }
 
   /// Solves `rounds` times, of the order asked for or the next lower one that works. Returns that order.
   uint32_t solve(const FairOptions& options, std::vector<Vec3>& at);
-  /// Steps to the least variation of curvature, as long as they lead there.
-  /// Returns whether any did.
+  /// Steps to the least variation of curvature, as long as they lead there. Returns whether any did.
   bool leastVariation(uint32_t steps, std::vector<Vec3>& at);
+  /// Steps to the least bending, as long as each is shorter than the one before. Returns whether there were any.
+  bool leastBending(uint32_t steps, std::vector<Vec3>& at);
 
  private:
   void findNear();
-  bool measure(ArrayView<const Vec3> at);
+  bool measure(ArrayView<const Vec3> at, uint32_t order);
   bool isTame(ArrayView<const Vec3> at) const {
     for (const Vec3& p : at)
       if (!(std::fabs(p.x) < kFarthest && std::fabs(p.y) < kFarthest && std::fabs(p.z) < kFarthest))
@@ -45,7 +51,8 @@ class Fairing {
 
   const LocalSurface& surface_;
   Work& work_;
-  std::vector<uint32_t> near_;  // [3m] triangles that the system knows of
+  std::vector<Clamp> clamps_;
+  TriangleMesh near_;  // triangles that the system knows of
   std::vector<double> flat_;
   Laplacian laplacian_;
 };
@@ -53,6 +60,10 @@ class Fairing {
 /// Rows of vertices at most two edges away from a free one are all that k = 3 takes.
 void Fairing::findNear() {
   const std::vector<uint32_t>& t = surface_.triangles;
+  if (!clamps_.empty()) {
+    near_.corners = t;
+    return;
+  }
   std::vector<uint8_t> isNear(surface_.positions.size() / 3, 0);
   for (size_t v = surface_.fixedVertices; v < isNear.size(); ++v) isNear[v] = 1;
   std::vector<uint32_t> ring;
@@ -65,20 +76,22 @@ void Fairing::findNear() {
   }
   for (size_t h = 0; h < t.size(); h += 3)
     if (isNear[t[h]] || isNear[t[h + 1]] || isNear[t[h + 2]])
-      near_.insert(near_.end(), {t[h], t[h + 1], t[h + 2]});
+      near_.corners.insert(near_.corners.end(), {t[h], t[h + 1], t[h + 2]});
 }
 
-bool Fairing::measure(ArrayView<const Vec3> at) {
+bool Fairing::measure(ArrayView<const Vec3> at, uint32_t order) {
   flat_.clear();
   for (const Vec3& p : at) flat_.insert(flat_.end(), {p.x, p.y, p.z});
-  return buildLaplacian(flat_, near_, work_, laplacian_);
+  if (near_.twins.empty() && !findTwins(near_.corners, uint32_t(at.size()), work_, near_.twins))
+    return false;
+  return buildLaplacian(flat_, near_, clamps_, order == 3, work_, laplacian_);
 }
 
 uint32_t Fairing::solve(const FairOptions& options, std::vector<Vec3>& at) {
   const std::vector<Vec3> before = at;
   uint32_t order = options.order < 3 ? options.order : 3;
   for (uint32_t round = 0; round < options.rounds && order > 0;) {
-    if (!measure(at)) return 0;
+    if (!measure(at, order)) return 0;
     FairSystem system(laplacian_, surface_.fixedVertices, work_);
     const bool isGood = system.solve(order, at) && isTame(at);
     if (!work_.going()) return 0;
@@ -98,9 +111,10 @@ bool Fairing::leastVariation(uint32_t steps, std::vector<Vec3>& at) {
   double least = 0;
   bool isBetter = false;
   for (uint32_t i = 0, halvings = 0; i <= steps; ++i) {
-    if (!measure(at)) return false;
+    if (!measure(at, 3)) return false;
     FairSystem system(laplacian_, surface_.fixedVertices, work_);
-    const double now = system.variation(at, near_);
+    system.measure(at, near_.corners);
+    const double now = system.variation();
     if (i > 0 && !(now < least && isTame(at))) {
       // Too far: half of the step, or none.
       if (++halvings > 2) break;
@@ -110,11 +124,35 @@ bool Fairing::leastVariation(uint32_t steps, std::vector<Vec3>& at) {
     isBetter = isBetter || i > 0;
     least = now, best = at;
     double most;
-    if (i == steps || !system.stepToLeastVariation(at, most)) break;
+    if (i == steps || !system.step(3, at, most)) break;
     if (most < kLastStep * std::sqrt(1.0 / double(at.size()))) steps = i + 1;
   }
   at = best;
   return isBetter;
+}
+
+bool Fairing::leastBending(uint32_t steps, std::vector<Vec3>& at) {
+  std::vector<Vec3> from = at;
+  double shortest = kFarthest;
+  uint32_t done = 0;
+  while (done < steps) {
+    if (!measure(at, 2)) return false;
+    FairSystem system(laplacian_, surface_.fixedVertices, work_);
+    system.measure(at, near_.corners);
+    std::vector<Vec3> next = at;
+    double most;
+    const bool isGood = system.step(2, next, most) && isTame(next) && most < shortest;
+    if (!work_.going()) return false;
+    if (!isGood) {
+      // The last step led to no better place.
+      at = from;
+      break;
+    }
+    from.swap(at), at.swap(next);
+    shortest = most, ++done;
+    if (most < kLastStep * std::sqrt(1.0 / double(at.size()))) break;
+  }
+  return done > 0;
 }
 
 }  // namespace
@@ -125,13 +163,15 @@ Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairn
   const UnitBox box(surface.positions);
   if (n <= surface.fixedVertices || box.isPoint()) return work.status();
   Charge charge(work);
-  if (!charge.add(n * 300 + surface.triangles.size() * 8)) return work.status();
+  if (!charge.add(n * 300 + surface.triangles.size() * 16)) return work.status();
   std::vector<Vec3> at(n);
   for (size_t v = 0; v < n; ++v) at[v] = box.in(&surface.positions[3 * v]);
-  Fairing fairing(surface, work);
+  Fairing fairing(surface, box.extent(), work);
   uint32_t order = fairing.solve(options, at);
-  if (order == 3 && options.curvatureSteps > 0 &&
-      !fairing.leastVariation(options.curvatureSteps, at) && options.rounds == 0) {
+  const uint32_t steps = options.stepsOf(order);
+  const bool isBetter = steps > 0 && (order == 2 ? fairing.leastBending(steps, at)
+                                                 : fairing.leastVariation(steps, at));
+  if (steps > 0 && !isBetter && options.rounds == 0) {
     // Something has to smooth it.
     FairOptions once = options;
     once.rounds = 1;
@@ -154,7 +194,7 @@ bool roughness(const LocalSurface& surface, Work& work, double& result) {
   if (surface.fixedTriangles == 0 || box.isPoint()) return work.going();
   const size_t n = surface.positions.size() / 3;
   Charge charge(work);
-  if (!charge.add(n * 150 + size_t(surface.fixedTriangles) * 12)) return false;
+  if (!charge.add(n * 150 + size_t(surface.fixedTriangles) * 36)) return false;
   std::vector<Vec3> at(n);
   std::vector<double> flat;
   for (size_t v = 0; v < n; ++v) {
@@ -163,9 +203,13 @@ bool roughness(const LocalSurface& surface, Work& work, double& result) {
   }
   const ArrayView<const uint32_t> around = surroundings(surface);
   Laplacian laplacian;
-  if (!buildLaplacian(flat, around, work, laplacian)) return false;
+  TriangleMesh mesh;
+  mesh.corners.assign(around.begin(), around.end());
+  if (!findTwins(around, uint32_t(n), work, mesh.twins) ||
+      !buildLaplacian(flat, mesh, {}, false, work, laplacian))
+    return false;
   FairSystem system(laplacian, uint32_t(n), work);
-  system.variation(at, around);
+  system.measure(at, around);
   double sum = 0;
   size_t count = 0;
   for (size_t h = 0; h < around.size(); ++h) {

@@ -4,7 +4,9 @@
 // 2004, "An intuitive framework for real-time freeform modeling", for (L M^-1)^(k-1) L x = 0.
 // Differs: cotangents over the intrinsic Delaunay triangulation, taken anew from the faired surface, which makes
 // the large patches round; k = 3, so that curvature goes on too. The Laplacian of a vertex on the boundary of the
-// surroundings is not known, and left out, by which the system stays symmetric and positive.
+// surroundings is not known, and left out, by which the system stays symmetric and positive. A patch without
+// surroundings may be clamped instead: at its boundary the way on is then given by normals, as for a clamped plate in
+// Ciarlet, Raviart 1974, "A mixed finite element method for the biharmonic equation".
 #pragma once
 #include <cstdint>
 
@@ -17,7 +19,11 @@ namespace sf {
 struct FairOptions {
   uint32_t order = 3;           // k: 1 least area, 2 least bending, 3 least variation of curvature
   uint32_t rounds = 3;          // how often weights are taken from the surface that came out
+  uint32_t bendingSteps = 0;    // k = 2: steps to the least squared mean curvature, at most
   uint32_t curvatureSteps = 4;  // k = 3: steps to the least variation of mean curvature, at most
+
+  /// How many steps there are after the solutions of order k.
+  uint32_t stepsOf(uint32_t k) const { return k == 2 ? bendingSteps : k == 3 ? curvatureSteps : 0; }
 };
 
 struct Fairness {
@@ -26,7 +32,7 @@ struct Fairness {
   double moved = 0;  // the largest distance that a vertex moved
 };
 
-/// Moves the vertices from `fixedVertices` on. Surroundings of k rings determine the result; fewer do.
+/// Moves the vertices from `fixedVertices` on. Surroundings of k rings determine the result, and so do clamps.
 /// Positions stay finite, whatever the triangles. O(n^1.5) time for n vertices.
 /// Errors: OutOfMemory, Stopped; the surface is then as it was.
 Status fair(LocalSurface& surface, const FairOptions& options, Work& work, Fairness& result);

@@ -57,9 +57,16 @@ FairSystem::FairSystem(const Laplacian& laplacian, uint32_t firstFree, Work& wor
   flow_.resize(n), next_.resize(n);
 }
 
+/// The Laplacian of places, into flow_.
+void FairSystem::laplacianOfPlaces(ArrayView<const Vec3> x) {
+  multiply(laplacian_.whole, x, flow_);
+  for (const Clamp& clamp : laplacian_.clamps)
+    flow_[clamp.vertex] = flow_[clamp.vertex] - clamp.pull;
+}
+
 /// The left side of the system at x, for all vertices, into flow_.
 void FairSystem::forces(uint32_t order, ArrayView<const Vec3> x) {
-  multiply(laplacian_.whole, x, flow_);
+  laplacianOfPlaces(x);
   for (uint32_t k = 1; k < order; ++k) {
     for (uint32_t v = 0; v < flow_.size(); ++v) flow_[v] = inverseMass_[v] * flow_[v];
     const bool isLast = k + 1 == order;
@@ -126,12 +133,12 @@ bool FairSystem::solve(uint32_t order, ArrayView<Vec3> x) {
     cholesky.solve(step);
     for (size_t u = 0; u < unknowns_.size(); ++u) x[unknowns_[u]] = x[unknowns_[u]] + step[u];
     forces(order, x);
-    if (!work_.tick(uint32_t(flow_.size()) * 100)) return false;
+    if (!work_.tick(uint64_t(flow_.size()) * 100)) return false;
   }
   return largest() <= bearable;
 }
 
-double FairSystem::variation(ArrayView<const Vec3> x, ArrayView<const uint32_t> triangles) {
+void FairSystem::measure(ArrayView<const Vec3> x, ArrayView<const uint32_t> triangles) {
   const uint32_t n = uint32_t(x.size());
   normals_.assign(n, Vec3{0, 0, 0}), curvature_.assign(n, 0);
   for (uint32_t h = 0; h < triangles.size(); ++h) {
@@ -142,14 +149,18 @@ double FairSystem::variation(ArrayView<const Vec3> x, ArrayView<const uint32_t> 
     const double square = dot(a, a) * dot(b, b);
     if (square > 0) normals_[v] = normals_[v] + (1 / square) * cross(a, b);
   }
-  multiply(laplacian_.whole, x, flow_);
+  for (const Clamp& clamp : laplacian_.clamps) normals_[clamp.vertex] = clamp.normal;
+  laplacianOfPlaces(x);
   for (uint32_t v = 0; v < n; ++v) {
     const double l = length(normals_[v]);
     if (l > 0) normals_[v] = (1 / l) * normals_[v];
     curvature_[v] = inverseMass_[v] * dot(normals_[v], flow_[v]);
   }
+}
+
+double FairSystem::variation() const {
   double sum = 0;
-  for (uint32_t v = 0; v < n; ++v)
+  for (uint32_t v = 0; v < curvature_.size(); ++v)
     for (uint32_t e = laplacian_.inner.starts[v]; e < laplacian_.inner.starts[v + 1]; ++e)
       sum += curvature_[v] * laplacian_.inner.values[e] *
              (curvature_[laplacian_.inner.columns[e]] - curvature_[v]);
@@ -183,10 +194,10 @@ bool FairSystem::shiftAlongNormals(const SparseRows& matrix, std::vector<Vec3>& 
     x[v] = x[v] + step[u].x * normals_[v];
     most = std::fmax(most, std::fabs(step[u].x));
   }
-  return work_.tick(uint32_t(x.size()) * 100);
+  return work_.tick(uint64_t(x.size()) * 100);
 }
 
-bool FairSystem::stepToLeastVariation(ArrayView<Vec3> x, double& most) {
+bool FairSystem::step(uint32_t order, ArrayView<Vec3> x, double& most) {
   most = 0;
   if (unknowns_.empty()) return true;
   const uint32_t n = uint32_t(x.size());
@@ -196,34 +207,23 @@ bool FairSystem::stepToLeastVariation(ArrayView<Vec3> x, double& most) {
     return false;
   const SparseRows outer = bentLaplacian();
   SparseRows matrix;
-  if (!assemble(3, outer, matrix, charge)) return false;
+  if (!assemble(order, order == 2 ? laplacian_.whole : outer, matrix, charge)) return false;
   for (uint32_t v = 0; v < n; ++v) flow_[v] = {curvature_[v], 0, 0};
-  multiply(laplacian_.inner, flow_, next_);
-  for (uint32_t v = 0; v < n; ++v) next_[v] = inverseMass_[v] * next_[v];
-  std::vector<Vec3> step(unknowns_.size());
-  for (size_t u = 0; u < unknowns_.size(); ++u) {
-    double sum = 0;
-    for (uint32_t e = outer.starts[unknowns_[u]]; e < outer.starts[unknowns_[u] + 1]; ++e)
-      sum += outer.values[e] * next_[outer.columns[e]].x;
-    step[u] = {-sum, 0, 0};
+  if (order == 3) {
+    multiply(laplacian_.inner, flow_, next_);
+    for (uint32_t v = 0; v < n; ++v) flow_[v] = inverseMass_[v] * next_[v];
   }
-  return shiftAlongNormals(matrix, step, x, most);
-}
-
-bool FairSystem::stepToMinimalSurface(ArrayView<Vec3> x, double& most) {
-  most = 0;
-  if (unknowns_.empty()) return true;
-  Charge charge(work_);
-  if (!charge.add(uint64_t(laplacian_.whole.columns.size()) * 12 + x.size() * 12 +
-                  unknowns_.size() * 2 * sizeof(Vec3)))
-    return false;
-  SparseRows matrix;
-  if (!assemble(1, bentLaplacian(), matrix, charge)) return false;
-  multiply(laplacian_.whole, x, flow_);
   std::vector<Vec3> step(unknowns_.size());
   for (size_t u = 0; u < unknowns_.size(); ++u) {
     const uint32_t v = unknowns_[u];
-    step[u] = {-dot(normals_[v], flow_[v]), 0, 0};
+    // How the energy changes when the vertex moves: of bending also since the area does.
+    const double h = curvature_[v];
+    double sum = 0;
+    if (order == 1) sum = laplacian_.mass[v] * h;
+    if (order == 2) sum = 0.5 * laplacian_.mass[v] * h * h * h / laplacian_.unit;
+    for (uint32_t e = outer.starts[v]; order > 1 && e < outer.starts[v + 1]; ++e)
+      sum += outer.values[e] * flow_[outer.columns[e]].x;
+    step[u] = {-sum, 0, 0};
   }
   return shiftAlongNormals(matrix, step, x, most);
 }

@@ -24,24 +24,25 @@ class FairSystem {
   /// when the work ended; x is then spoilt.
   bool solve(uint32_t order, ArrayView<Vec3> x);
 
-  /// How much the mean curvature varies over the surface: the integral of its squared gradient.
+  /// Finds the mean curvature and the normals at all vertices, for what follows.
   ///   triangles  [3m] of the surface
-  double variation(ArrayView<const Vec3> x, ArrayView<const uint32_t> triangles);
-  /// The mean curvature at a vertex, times two; 0 on the boundary. After variation().
+  void measure(ArrayView<const Vec3> x, ArrayView<const uint32_t> triangles);
+  /// The mean curvature at a vertex, times two; 0 on the boundary. After measure().
   double curvature(uint32_t v) const { return curvature_[v]; }
-  /// One step of Gauss-Newton towards the least variation, along the normals. After variation(x). Returns like solve.
+  /// How much the mean curvature varies over the surface: the integral of its squared gradient. After measure().
+  double variation() const;
+  /// One step along the normals, of the kind of Newton's: for `order` 1 to a minimal surface, for 2 to the least
+  /// bending, the integral of the squared mean curvature, for 3 to its least variation. After measure(x). False as
+  /// solve, and for films that are not stable: the second variation of their area has a negative direction.
   ///   x     [n] moved
   ///   most  out: the largest distance moved
-  bool stepToLeastVariation(ArrayView<Vec3> x, double& most);
-
-  /// One step of Newton towards a minimal surface, along the normals. After variation(x). False as well where the
-  /// surface is no stable film: the second variation of its area has a negative direction.
-  bool stepToMinimalSurface(ArrayView<Vec3> x, double& most);
+  bool step(uint32_t order, ArrayView<Vec3> x, double& most);
 
  private:
   SparseRows bentLaplacian() const;
   bool shiftAlongNormals(const SparseRows& matrix, std::vector<Vec3>& step, ArrayView<Vec3> x,
                          double& most);
+  void laplacianOfPlaces(ArrayView<const Vec3> x);
   bool assemble(uint32_t order, const SparseRows& outer, SparseRows& matrix, Charge& charge);
   void forces(uint32_t order, ArrayView<const Vec3> x);
 

@@ -107,8 +107,7 @@ bool survey(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims, 
   for (const uint32_t v : rims.vertices)
     if (result.isOfTwoRims[v] < 2) ++result.isOfTwoRims[v];
   for (uint8_t& count : result.isOfTwoRims) count = count == 2;
-  return work.tick(uint32_t(std::min<size_t>(20 * (n + m), 1u << 30))) &&
-         result.tree.build(mesh, 0, uint32_t(m), work, charge);
+  return work.tick(20 * (uint64_t(n) + m)) && result.tree.build(mesh, 0, uint32_t(m), work, charge);
 }
 
 HoleFiller::HoleFiller(const MeshView& mesh, const Adjacency& adjacency, const Rims& rims,
@@ -169,7 +168,7 @@ Status HoleFiller::span(Hole& hole, const FillOptions& options, FilledHole& resu
     }
     if (found.found && found.inserted.empty()) break;
     reason = found.found ? FillReason::InsertedVertices : FillReason::NoSurface;
-    if (found.found && found.inserted.size() <= options.maxNewVertices)
+    if (found.found && found.inserted.size() <= options.refining.maxNewVertices)
       result.splits = splitsOf(hole, found);
     found.found = false;
   }
@@ -563,8 +562,8 @@ Status HoleFiller::fillParts(const HoleParts& parts, const FillOptions& options,
   const bool isStitched = !between.empty();
   if (parts.parts.empty() && !isStitched) return Status::Ok;
   FillOptions left = options;
-  if (parts.points.size() > left.maxNewVertices) return Status::Ok;
-  left.maxNewVertices -= uint32_t(parts.points.size());
+  if (parts.points.size() > left.refining.maxNewVertices) return Status::Ok;
+  left.refining.maxNewVertices -= uint32_t(parts.points.size());
   const size_t positions = newPositions_.size(), faces = newFaces_.size();
   const uint32_t firstPoint = vertexCount();
   result.firstFace = faceCount();
@@ -589,7 +588,7 @@ Status HoleFiller::fillParts(const HoleParts& parts, const FillOptions& options,
     FilledHole filled;
     const uint32_t before = vertexCount();
     status = fillPart(hole, left, filled);
-    left.maxNewVertices -= vertexCount() - before;
+    left.refining.maxNewVertices -= vertexCount() - before;
     if (status != Status::Ok || filled.status != FillStatus::Filled) {
       isGood = false;
       break;
@@ -631,7 +630,7 @@ Status HoleFiller::fillPart(Hole& hole, const FillOptions& options, FilledHole& 
 
   LocalSurface& surface = hole.surface;
   const auto added = [&] { return surface.positions.size() / 3 - surface.fixedVertices; };
-  const uint32_t chords = countTakenChords(hole), most = options.maxNewVertices;
+  const uint32_t chords = countTakenChords(hole), most = options.refining.maxNewVertices;
   if (chords > most) {
     result.status = FillStatus::Failed, result.reason = FillReason::DuplicateFace;
     return Status::Ok;
@@ -648,8 +647,7 @@ Status HoleFiller::fillPart(Hole& hole, const FillOptions& options, FilledHole& 
       return work_.status();
     if (options.fairing == Fairing::Bending) fairing.order = 2;
     if (options.fairing == Fairing::Curvature) fairing.order = 3;
-    RefineOptions refining;
-    refining.density = options.density;
+    RefineOptions refining = options.refining;
     refining.maxNewVertices = most == kNone ? kNone : most - chords;
     LocalSurface spanned;
     if (most != kNone || options.clock) spanned = surface;

@@ -15,6 +15,7 @@
 #include "mesh/group.h"
 #include "mesh/hole_part.h"
 #include "mesh/intersect.h"
+#include "mesh/refine.h"
 
 namespace sf {
 
@@ -24,10 +25,9 @@ struct FillOptions {
   double areaWeight = 0, perimeterWeight = 0, dihedralWeight = 1;  // as in SpanOptions
   Space space = Space::Auto;
   Fairing fairing = Fairing::Auto;
-  double density = 1.4142135623730951;  // as in RefineOptions
-  uint32_t maxNewVertices = kNone;      // on creases and chords too
-  bool inFloats = false;  // whether coordinates of new vertices are rounded to single precision
-  double crease = 0.698;  // edges between faces that differ by more, in radians, go on; 0: none do
+  RefineOptions refining;  // new vertices on creases and chords are counted too
+  bool inFloats = false;   // whether coordinates of new vertices are rounded to single precision
+  double crease = 0.698;   // edges between faces that differ by more, in radians, go on; 0: none do
   double maxSeconds = 1e300;  // by `clock`, which is null if it limits nothing
   Clock clock = nullptr;
 };

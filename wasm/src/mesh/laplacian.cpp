@@ -18,30 +18,34 @@ constexpr double kLargestCotangent = 1e4;
 
 /// A triangulation of the surface by lengths alone: no places, so that a flip changes nothing of the surface.
 struct Intrinsic {
-  TriangleMesh mesh;            // its corners and twins
-  std::vector<double> lengths;  // [3m] of half-edges
+  TriangleMesh mesh;                // its corners and twins
+  std::vector<double> lengths;      // [3m] of half-edges
+  std::vector<double> doubleAreas;  // [m]
+  std::vector<double> cotangents;   // [3m] of the angles opposite half-edges
 
-  double doubleArea(uint32_t h) const;
-  double cotangent(uint32_t h) const;
+  void measure(uint32_t t);
   bool flip(uint32_t h);
 };
 
-/// Twice the area of the triangle of a half-edge, by Kahan's formula.
-double Intrinsic::doubleArea(uint32_t h) const {
-  double a = lengths[h], b = lengths[nextInTriangle(h)], c = lengths[prevInTriangle(h)];
+/// Area and cotangents of a triangle from its lengths.
+void Intrinsic::measure(uint32_t t) {
+  const double* l = &lengths[3 * size_t(t)];
+  // Kahan's formula.
+  double a = l[0], b = l[1], c = l[2];
   if (a < b) std::swap(a, b);
   if (a < c) std::swap(a, c);
   if (b < c) std::swap(b, c);
   const double square = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
-  return square > 0 ? 0.5 * std::sqrt(square) : 0;
-}
-
-/// The cotangent of the angle opposite a half-edge.
-double Intrinsic::cotangent(uint32_t h) const {
-  const double a = lengths[h], b = lengths[nextInTriangle(h)], c = lengths[prevInTriangle(h)];
-  const double above = (b - a) * (b + a) + c * c, below = 2 * doubleArea(h);
-  if (std::fabs(above) < kLargestCotangent * below) return above / below;
-  return above > 0 ? kLargestCotangent : above < 0 ? -kLargestCotangent : 0;
+  const double area = square > 0 ? 0.5 * std::sqrt(square) : 0, below = 2 * area;
+  doubleAreas[t] = area;
+  for (int k = 0; k < 3; ++k) {
+    const double side = l[k], next = l[(k + 1) % 3], last = l[(k + 2) % 3];
+    const double above = (next - side) * (next + side) + last * last;
+    cotangents[3 * size_t(t) + k] = std::fabs(above) < kLargestCotangent * below ? above / below
+                                    : above > 0                                  ? kLargestCotangent
+                                    : above < 0 ? -kLargestCotangent
+                                                : 0;
+  }
 }
 
 /// Turns the edge of h in the quadrilateral of its two triangles, laid flat. False if that is not convex.
@@ -56,14 +60,15 @@ bool Intrinsic::flip(uint32_t h) {
   };
   double cx, cy, dx, dy;
   const double base = lengths[h];
-  apexOf(base, lengths[prevInTriangle(h)], lengths[h1], doubleArea(h), cx, cy);
-  apexOf(base, lengths[g1], lengths[prevInTriangle(g)], doubleArea(g), dx, dy);
+  apexOf(base, lengths[prevInTriangle(h)], lengths[h1], doubleAreas[h / 3], cx, cy);
+  apexOf(base, lengths[g1], lengths[prevInTriangle(g)], doubleAreas[g / 3], dx, dy);
   const double length = std::hypot(cx - dx, cy + dy);
   const double crossing = cx + (dx - cx) * (cy + dy > 0 ? cy / (cy + dy) : 0.5);
   if (!(length > 0) || crossing <= 0 || crossing >= base) return false;
   const double fromA = lengths[g1], fromB = lengths[h1];
   mesh.flip(h);
   lengths[h] = fromA, lengths[g] = fromB, lengths[h1] = lengths[g1] = length;
+  measure(h / 3), measure(g / 3);
   return true;
 }
 
@@ -80,104 +85,93 @@ void measure(ArrayView<const double> positions, Intrinsic& surface) {
   for (uint32_t h = 0; h < corners.size(); ++h) {
     const double slack = surface.lengths[nextInTriangle(h)] + surface.lengths[prevInTriangle(h)] -
                          surface.lengths[h];
-    most = std::fmax(most, margin - slack);
+    if (margin - slack > most) most = margin - slack;
   }
   if (most > 0)
     for (double& length : surface.lengths) length += most;
+  surface.doubleAreas.resize(corners.size() / 3), surface.cotangents.resize(corners.size());
+  for (uint32_t t = 0; t < corners.size() / 3; ++t) surface.measure(t);
 }
 
 /// Flips edges until the two angles opposite each sum to at most pi. False when the work ended.
 bool makeDelaunay(Intrinsic& surface, Work& work) {
   std::vector<uint32_t> stack;
   const TriangleMesh& mesh = surface.mesh;
+  const auto wantsFlip = [&](uint32_t h) {
+    const uint32_t g = mesh.twins[h];
+    return g != kNone && surface.cotangents[h] + surface.cotangents[g] < -1e-9;
+  };
   for (uint32_t h = uint32_t(mesh.corners.size()); h-- > 0;)
-    if (mesh.twins[h] != kNone && mesh.twins[h] > h) stack.push_back(h);
+    if (mesh.twins[h] > h && wantsFlip(h)) stack.push_back(h);
   // It ends by itself, in theory; rounding may turn an edge of four points on a circle for ever.
   size_t budget = 20 * mesh.corners.size();
   while (!stack.empty() && budget > 0) {
-    const uint32_t h = stack.back();
+    const uint32_t h = stack.back(), g = mesh.twins[h];
     stack.pop_back();
-    const uint32_t g = mesh.twins[h];
-    if (g == kNone) continue;
-    if (!work.tick(30)) return false;
-    if (surface.cotangent(h) + surface.cotangent(g) >= -1e-9) continue;
-    if (!surface.flip(h)) continue;
+    if (!work.tick(60)) return false;
+    if (!wantsFlip(h) || !surface.flip(h)) continue;
     --budget;
     for (const uint32_t side : {h, prevInTriangle(h), g, prevInTriangle(g)}) stack.push_back(side);
   }
   return true;
 }
 
-struct Weight {
-  uint32_t column;
-  double value;
-};
-
-/// The matrix of the triangles that count.
-bool assemble(const Intrinsic& surface, uint32_t n, ArrayView<const uint8_t> isLeftOut, Work& work,
+/// The matrix of the triangles that count: an edge has half of the cotangents on either side.
+///   counts  [m]
+void assemble(const Intrinsic& surface, uint32_t n, ArrayView<const uint8_t> counts,
               SparseRows& rows) {
-  const std::vector<uint32_t>& corners = surface.mesh.corners;
-  const auto counts = [&](uint32_t h) {
-    if (isLeftOut.empty()) return true;
-    const uint32_t t = h - h % 3;
-    return !isLeftOut[corners[t]] && !isLeftOut[corners[t + 1]] && !isLeftOut[corners[t + 2]];
+  const std::vector<uint32_t>&corners = surface.mesh.corners, &twins = surface.mesh.twins;
+  // Calls `put` for each end of each edge that is known from there, by its half-edge or as the only one of the edge.
+  const auto forEntries = [&](auto&& put) {
+    for (uint32_t t = 0; t < counts.size(); ++t)
+      for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t h = 3 * t + k, g = twins[h], a = corners[h],
+                       b = corners[3 * t + (k + 1) % 3];
+        const bool isWithin = g != kNone && counts[g / 3];
+        // An edge from a vertex to itself says nothing.
+        if (a == b || (!counts[t] && !isWithin)) continue;
+        const double w = 0.5 * ((counts[t] ? surface.cotangents[h] : 0) +
+                                (isWithin ? surface.cotangents[g] : 0));
+        put(a, b, w);
+        if (g == kNone) put(b, a, w);
+      }
   };
-  // Every half-edge gives an entry to the row of either end.
-  std::vector<uint32_t> starts(n + 1, 0);
-  for (uint32_t h = 0; h < corners.size(); ++h)
-    if (counts(h)) ++starts[corners[h]], ++starts[corners[nextInTriangle(h)]];
+  rows.starts.assign(n + 1, 1);
+  forEntries([&](uint32_t a, uint32_t, double) { ++rows.starts[a]; });
   for (uint32_t v = 0, sum = 0; v <= n; ++v) {
-    const uint32_t count = starts[v];
-    starts[v] = sum, sum += count;
+    const uint32_t count = rows.starts[v];
+    rows.starts[v] = sum, sum += count;
   }
-  std::vector<Weight> entries(starts[n]);
-  std::vector<uint32_t> next(starts.begin(), starts.end() - 1);
-  for (uint32_t h = 0; h < corners.size(); ++h) {
-    if (!counts(h)) continue;
-    const uint32_t a = corners[h], b = corners[nextInTriangle(h)];
-    const double w = 0.5 * surface.cotangent(h);
-    entries[next[a]++] = {b, w}, entries[next[b]++] = {a, w};
-  }
-  rows.starts.assign(1, 0), rows.columns.clear(), rows.values.clear();
-  std::vector<uint32_t> at(n, kNone);
+  rows.columns.resize(rows.starts[n]), rows.values.resize(rows.starts[n]);
+  std::vector<uint32_t> next(n);
   for (uint32_t v = 0; v < n; ++v) {
-    const size_t from = rows.columns.size();
-    rows.columns.push_back(v), rows.values.push_back(0);
-    at[v] = uint32_t(from);
-    for (uint32_t e = starts[v]; e < starts[v + 1]; ++e) {
-      const Weight& entry = entries[e];
-      if (entry.column == v) continue;  // an edge from a vertex to itself says nothing
-      if (at[entry.column] == kNone || at[entry.column] < from ||
-          rows.columns[at[entry.column]] != entry.column)
-        at[entry.column] = uint32_t(rows.columns.size()), rows.columns.push_back(entry.column),
-        rows.values.push_back(0);
-      rows.values[at[entry.column]] -= entry.value;
-      rows.values[from] += entry.value;
-    }
-    rows.starts.push_back(uint32_t(rows.columns.size()));
-    if (!work.tick(100)) return false;
+    rows.columns[rows.starts[v]] = v, rows.values[rows.starts[v]] = 0;
+    next[v] = rows.starts[v] + 1;
   }
-  return true;
+  forEntries([&](uint32_t a, uint32_t b, double w) {
+    const uint32_t e = next[a]++;
+    rows.columns[e] = b, rows.values[e] = -w, rows.values[rows.starts[a]] += w;
+  });
 }
 
 }  // namespace
 
-bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t> triangles,
-                    Work& work, Laplacian& result) {
-  const uint32_t n = uint32_t(positions.size() / 3), m = uint32_t(triangles.size() / 3);
+bool buildLaplacian(ArrayView<const double> positions, const TriangleMesh& mesh,
+                    ArrayView<const Clamp> clamps, bool withInner, Work& work, Laplacian& result) {
+  const uint32_t n = uint32_t(positions.size() / 3), m = mesh.triangleCount();
   Charge charge(work);
-  // Corners, twins, lengths, the stack, and entries of one matrix, with the search for twins less.
-  if (!charge.add(uint64_t(m) * 3 * (4 + 4 + 8 + 8 + 32) + uint64_t(n) * 16)) return false;
+  // Corners, twins, lengths, cotangents, areas, and the stack.
+  if (!charge.add(uint64_t(m) * (3 * (4 + 4 + 8 + 8 + 4) + 8) + uint64_t(n) * 16)) return false;
   Intrinsic surface;
-  surface.mesh.corners.assign(triangles.begin(), triangles.end());
-  if (!findTwins(triangles, n, work, surface.mesh.twins)) return false;
+  surface.mesh.corners = mesh.corners, surface.mesh.twins = mesh.twins;
   measure(positions, surface);
 
   result.isBoundary.assign(n, 1);
-  for (const uint32_t v : triangles) result.isBoundary[v] = 0;
+  for (const uint32_t v : mesh.corners) result.isBoundary[v] = 0;
   for (uint32_t h = 0; h < 3 * m; ++h)
-    if (surface.mesh.twins[h] == kNone)
-      result.isBoundary[triangles[h]] = result.isBoundary[triangles[nextInTriangle(h)]] = 1;
+    if (mesh.twins[h] == kNone) result.isBoundary[mesh.from(h)] = result.isBoundary[mesh.to(h)] = 1;
+  for (const Clamp& clamp : clamps) result.isBoundary[clamp.vertex] = 0;
+  result.clamps.assign(clamps.begin(), clamps.end());
   if (!makeDelaunay(surface, work)) return false;
 
   // Areas of Voronoi cells, which in a Delaunay triangulation are positive: with them the curvature of a sphere
@@ -186,19 +180,26 @@ bool buildLaplacian(ArrayView<const double> positions, ArrayView<const uint32_t>
   result.mass.assign(n, 0);
   double total = 0;
   std::vector<double> third(n, 0.0);
-  for (uint32_t h = 0; h < 3 * m; ++h) {
-    const uint32_t a = surface.mesh.corners[h], b = surface.mesh.corners[nextInTriangle(h)];
-    const double cell = surface.cotangent(h) * surface.lengths[h] * surface.lengths[h] / 8;
-    result.mass[a] += cell, result.mass[b] += cell;
-    const double share = surface.doubleArea(h) / 6;
-    third[a] += share, total += share;
+  std::vector<uint8_t> areAll(m, 1), areInner(m, 1);
+  for (uint32_t t = 0; t < m; ++t) {
+    const uint32_t* v = &surface.mesh.corners[3 * size_t(t)];
+    const double share = surface.doubleAreas[t] / 6;
+    total += 3 * share;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const size_t h = 3 * size_t(t) + k;
+      const double cell = surface.cotangents[h] * surface.lengths[h] * surface.lengths[h] / 8;
+      result.mass[v[k]] += cell, result.mass[v[(k + 1) % 3]] += cell;
+      third[v[k]] += share;
+      if (result.isBoundary[v[k]]) areInner[t] = 0;
+    }
   }
   const double mean = total > 0 ? total / n : 1;
   result.unit = mean;
   for (uint32_t v = 0; v < n; ++v)
     result.mass[v] = std::fmax(std::fmax(result.mass[v], 0.2 * third[v]) / mean, 1e-6);
-  return assemble(surface, n, {}, work, result.whole) &&
-         assemble(surface, n, result.isBoundary, work, result.inner);
+  assemble(surface, n, areAll, result.whole);
+  if (withInner) assemble(surface, n, areInner, result.inner);
+  return work.tick(150 * uint64_t(m));
 }
 
 }  // namespace sf

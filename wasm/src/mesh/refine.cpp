@@ -16,6 +16,9 @@ constexpr uint32_t kRounds = 64;
 constexpr double kSettling = 1.2;
 // Vertices in a patch to regular triangles with sides of the scale: measured.
 constexpr double kPredicted = 0.25;
+// How often a patch is refined whose prediction was too low, and to what share of it that is lowered, more each time.
+constexpr int kAttempts = 5;
+constexpr double kFewer = 0.9;
 
 /// A set of edges between vertices: open addressing, linear probing.
 class EdgeSet {
@@ -80,8 +83,13 @@ class Refinement {
       : surface_(surface), work_(work), charge_(work), edges_(charge_) {}
 
   bool begin();
-  bool findScales(const RefineOptions& options);
-  bool divide(uint32_t maxNewVertices);
+  bool findScales(double density);
+  /// How many vertices a patch of this shape has about, with these scales.
+  double predicted() const;
+  /// Makes edges longer until by that prediction there are at most so many.
+  void coarsen(double most);
+  /// False when the work ended. `isEnough`: whether `maxNewVertices` were enough.
+  bool divide(uint32_t maxNewVertices, bool& isEnough);
   bool flipAll();
   bool settle(uint32_t times);
   void finish(LocalSurface& result);
@@ -175,7 +183,7 @@ bool Refinement::flipAll() {
 }
 
 /// Scales of the rim from the edges of the surroundings, those inside from the rim.
-bool Refinement::findScales(const RefineOptions& options) {
+bool Refinement::findScales(double density) {
   const size_t n = at_.size();
   if (!reserve(scale_, n, charge_) || !charge_.add(uint64_t(n) * 9)) return false;
   scale_.assign(n, 0);
@@ -196,20 +204,25 @@ bool Refinement::findScales(const RefineOptions& options) {
   }
   for (size_t v = 0; v < n; ++v) {
     isKnown[v] = v < surface_.fixedVertices && count[v] > 0;
-    scale_[v] = isKnown[v] ? scale_[v] / (count[v] * options.density * kSettling) : 0;
+    scale_[v] = isKnown[v] ? scale_[v] / (count[v] * density * kSettling) : 0;
   }
-  if (!spreadScales(isKnown)) return false;
-  double predicted = 0;
+  return spreadScales(isKnown);
+}
+
+double Refinement::predicted() const {
+  double sum = 0;
   for (uint32_t t = 0; t < mesh_.triangleCount(); ++t) {
     double s = 0;
     for (int k = 0; k < 3; ++k) s += scale_[mesh_.corners[3 * t + k]] / 3;
-    if (s > 0) predicted += kPredicted * 0.5 * length(normal(t)) / (std::sqrt(3.0) / 4 * s * s);
+    if (s > 0) sum += kPredicted * 0.5 * length(normal(t)) / (std::sqrt(3.0) / 4 * s * s);
   }
-  if (predicted > options.maxNewVertices && options.maxNewVertices > 0) {
-    const double factor = std::sqrt(predicted / options.maxNewVertices);
+  return sum;
+}
+
+void Refinement::coarsen(double most) {
+  const double factor = std::sqrt(predicted() / most);
+  if (factor > 1)
     for (double& s : scale_) s *= factor;
-  }
-  return true;
 }
 
 /// Scales of vertices inside the patch: the mean of their neighbours', from the rim inwards and then evened out.
@@ -236,7 +249,7 @@ bool Refinement::spreadScales(ArrayView<const uint8_t> isKnown) {
     // Whole parts may have no rim: they stay as they are.
     if (isOpen && !isNew) break;
     if (!wasOpen) ++extra;
-    if (!work_.tick(uint32_t(mesh_.corners.size() * 8))) return false;
+    if (!work_.tick(uint64_t(mesh_.corners.size()) * 8)) return false;
   }
   return true;
 }
@@ -267,16 +280,21 @@ bool Refinement::split(uint32_t t, Vec3 centre, double scale) {
   return true;
 }
 
-bool Refinement::divide(uint32_t maxNewVertices) {
+bool Refinement::divide(uint32_t maxNewVertices, bool& isEnough) {
   uint32_t left = maxNewVertices;
+  isEnough = true;
   for (uint32_t round = 0; round < kRounds; ++round) {
     const uint32_t count = mesh_.triangleCount();
     bool isDone = true;
-    for (uint32_t t = 0; t < count && left > 0; ++t) {
+    for (uint32_t t = 0; t < count && isEnough; ++t) {
       Vec3 centre;
       double scale;
       if (!work_.tick(40)) return false;
       if (!isDivisible(t, centre, scale)) continue;
+      if (left == 0) {
+        isEnough = false;
+        break;
+      }
       if (!split(t, centre, scale)) return false;
       isDone = false, --left;
     }
@@ -328,7 +346,7 @@ bool Refinement::settle(uint32_t times) {
     }
     for (size_t v = 0; v < n - first; ++v)
       if (!goesBack[v]) at_[v + first] = sum[v];
-    if (!work_.tick(mesh_.triangleCount() * 100) || !flipAll()) return false;
+    if (!work_.tick(uint64_t(mesh_.triangleCount()) * 100) || !flipAll()) return false;
   }
   return true;
 }
@@ -346,17 +364,28 @@ void Refinement::finish(LocalSurface& result) {
 
 Status refine(LocalSurface& surface, const RefineOptions& options, Work& work) {
   if (!(options.density > 0)) return work.status();
-  Refinement refinement(surface, work);
-  if (refinement.begin() && refinement.findScales(options) && refinement.flipAll() &&
-      refinement.divide(options.maxNewVertices) && refinement.settle(options.settlings))
-    refinement.finish(surface);
-  return work.status();
+  // Where the prediction was too low, the last parts of the patch would stay coarse: again, with fewer vertices.
+  double most = options.maxNewVertices;
+  for (int attempt = 1;; ++attempt) {
+    Refinement refinement(surface, work);
+    bool isEnough;
+    if (!refinement.begin() || !refinement.findScales(options.density)) return work.status();
+    most = std::fmin(most, refinement.predicted());
+    if (most > 0) refinement.coarsen(most);
+    if (!refinement.flipAll() || !refinement.divide(options.maxNewVertices, isEnough))
+      return work.status();
+    if (isEnough || attempt == kAttempts || options.maxNewVertices == 0) {
+      if (refinement.settle(options.settlings)) refinement.finish(surface);
+      return work.status();
+    }
+    most *= std::pow(kFewer, attempt);
+  }
 }
 
 Status relax(LocalSurface& surface, uint32_t settlings, Work& work) {
   Refinement refinement(surface, work);
-  if (refinement.begin() && refinement.findScales(RefineOptions{}) && refinement.flipAll() &&
-      refinement.settle(settlings))
+  if (refinement.begin() && refinement.findScales(RefineOptions{}.density) &&
+      refinement.flipAll() && refinement.settle(settlings))
     refinement.finish(surface);
   return work.status();
 }

@@ -66,10 +66,10 @@ Status smoothPatch(LocalSurface& surface, const RefineOptions& refining, const F
     fine.maxNewVertices -= newVertices(surface) - before;
     status = refine(surface, fine, work);
     if (status != Status::Ok) return status;
-    if (result.order == 3 && fairing.curvatureSteps > 0)
-      finish.rounds = 0;
-    else if (result.order > 0)
-      finish.order = result.order, finish.rounds = fairing.rounds < 2 ? fairing.rounds : 2;
+    if (result.order > 0) finish.order = result.order;
+    // Steps to the least variation begin from any surface, those to the least bending from a smooth one.
+    const uint32_t most = fairing.stepsOf(result.order) == 0 ? 2 : result.order == 2 ? 1 : 0;
+    if (result.order > 0 && fairing.rounds > most) finish.rounds = most;
   } else {
     const Status status = refine(surface, refining, work);
     if (status != Status::Ok) return status;

@@ -55,7 +55,7 @@ Status relaxToFilm(LocalSurface& surface, const FilmOptions& options, Work& work
   const size_t n = surface.positions.size() / 3;
   if (n <= surface.fixedVertices || box.isPoint()) return work.status();
   Charge charge(work);
-  if (!charge.add(n * 300)) return work.status();
+  if (!charge.add(n * 350)) return work.status();
   std::vector<Vec3> at(n), before(n);
   const auto take = [&] {
     for (size_t v = 0; v < n; ++v) at[v] = box.in(&surface.positions[3 * v]);
@@ -65,21 +65,26 @@ Status relaxToFilm(LocalSurface& surface, const FilmOptions& options, Work& work
   };
   take();
   std::vector<double> flat;
+  TriangleMesh mesh;
   uint32_t harmonic = 0;
   bool isNewton = false;
   for (; result.steps < options.steps && !result.isMinimal; ++result.steps) {
     flat.clear();
     for (const Vec3& p : at) flat.insert(flat.end(), {p.x, p.y, p.z});
     Laplacian laplacian;
-    if (!buildLaplacian(flat, surface.triangles, work, laplacian)) return work.status();
+    if (mesh.twins.empty()) {
+      mesh.corners = surface.triangles;
+      if (!findTwins(mesh.corners, uint32_t(n), work, mesh.twins)) return work.status();
+    }
+    if (!buildLaplacian(flat, mesh, {}, false, work, laplacian)) return work.status();
     FairSystem system(laplacian, surface.fixedVertices, work);
     before = at;
     double most = 0;
     isNewton = isNewton || harmonic >= kHarmonic;
     if (isNewton) {
       const double area = doubleAreaOfPatch(surface, at);
-      system.variation(at, surface.triangles);
-      const bool isGood = system.stepToMinimalSurface(at, most) && most < kLongest;
+      system.measure(at, surface.triangles);
+      const bool isGood = system.step(1, at, most) && most < kLongest;
       if (!work.going()) return work.status();
       if (!isGood || !(doubleAreaOfPatch(surface, at) <= area * (1 + 1e-9))) {
         // Not near a stable film, or not yet.
@@ -104,6 +109,7 @@ Status relaxToFilm(LocalSurface& surface, const FilmOptions& options, Work& work
       status = relax(surface, 2, work);
       if (status != Status::Ok) return status;
       take();
+      mesh.twins.clear();
       result.isMinimal = false;
     }
   }

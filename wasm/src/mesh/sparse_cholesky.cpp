@@ -131,8 +131,7 @@ bool SparseCholesky::dissect(const SparseRows& matrix, ArrayView<const Vec3> pla
   Vec3 low = places[set[0].unknown], high = low;
   for (const Place& p : set) {
     const Vec3 q = places[p.unknown];
-    low = {std::fmin(low.x, q.x), std::fmin(low.y, q.y), std::fmin(low.z, q.z)};
-    high = {std::fmax(high.x, q.x), std::fmax(high.y, q.y), std::fmax(high.z, q.z)};
+    low = lowest(low, q), high = highest(high, q);
   }
   const Vec3 extent = high - low;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
@@ -158,7 +157,7 @@ bool SparseCholesky::dissect(const SparseRows& matrix, ArrayView<const Vec3> pla
     set[i].key = sees(set[i].unknown, i < half ? right : left) ? 1 : 0;
     seen[i < half ? 0 : 1] += size_t(set[i].key);
   }
-  if (!work_.tick(uint32_t(set.size()) * 64)) return false;
+  if (!work_.tick(uint64_t(set.size()) * 64)) return false;
   // Moved to the inner end of their half, and then all three sets are next to each other.
   const bool takesLeft = seen[0] <= seen[1];
   const size_t from = takesLeft ? 0 : half, to = takesLeft ? half : set.size();
@@ -210,7 +209,7 @@ bool SparseCholesky::analyze(const SparseRows& matrix) {
       Node& parent = nodes_[nodeOf[rows_[node.rowsFrom]]];
       node.sibling = parent.firstChild, parent.firstChild = k;
     }
-    if (!work_.tick(node.columns() * 64 + node.below() * 64)) return false;
+    if (!work_.tick(64 * (uint64_t(node.columns()) + node.below()))) return false;
   }
   if (!charge_.add(size * sizeof(double))) return false;
   panels_.resize(size_t(size));
@@ -271,7 +270,7 @@ bool SparseCholesky::eliminate(const SparseRows& matrix) {
       subtractProducts(update.data(), r, below, c, r, below, c, r, c, 1);
     }
     updates[k].swap(update);
-    if (!isDefinite_ || !work_.tick(uint32_t(c * (c + r) / 4.0 * (c + r) / 4.0) + 100)) {
+    if (!isDefinite_ || !work_.tick(uint64_t(c) * (c + r) / 16 * (c + r) + 100)) {
       release();
       return false;
     }

@@ -20,7 +20,7 @@ namespace sf {
 /// A square matrix by rows.
 struct SparseRows {
   std::vector<uint32_t> starts;   // [n+1] in columns
-  std::vector<uint32_t> columns;  // [e] of each row, in any order, none twice
+  std::vector<uint32_t> columns;  // [e] of each row, in any order
   std::vector<double> values;     // [e]
 
   uint32_t size() const { return starts.empty() ? 0 : uint32_t(starts.size()) - 1; }
@@ -33,7 +33,7 @@ class SparseCholesky {
 
   /// Factors a matrix. O(n^1.5) time and O(n log n) memory for the unknowns of a surface. False when the work
   /// ended, or if the matrix is not positive definite by its rounded pivots: `isDefinite` tells which.
-  ///   matrix  all entries of a symmetric matrix, the diagonal included
+  ///   matrix  all entries of a symmetric matrix, the diagonal included, no column twice in a row
   ///   places  [n] where the unknowns are: good places make it fast, any are right
   bool factor(const SparseRows& matrix, ArrayView<const Vec3> places);
   bool isDefinite() const { return isDefinite_; }

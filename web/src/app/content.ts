@@ -66,6 +66,11 @@ export class Content {
     return this.#json?.value;
   }
 
+  /** Whether the bytes from `at` on are those of the letters. */
+  hasMark(letters: string, at = 0): boolean {
+    return Array.from(letters).every((letter, i) => this.bytes[at + i] === letter.charCodeAt(0));
+  }
+
   /** Whether it looks like JSON, broken or not. */
   get isJson(): boolean {
     return this.isText && /^[{[]/.test(this.head);

@@ -32,28 +32,38 @@ const kCloser = 1.18;
 /** How much further an arrow moves with Shift. */
 const kFar = 10;
 
+/** Whether nothing in a room can be moved or removed by itself. */
+const areAllFixed = ({ kinds }: Room): boolean => kinds.every(({ isFixed }) => isFixed);
+
 const isEmpty = (): boolean => (group.value?.items.length ?? 0) === 0;
 
 /** All actions of the page while it is in a mode, in the order of their buttons. */
 export function actionsOf(stage: Stage, tools: Tools, room: Room | undefined): readonly Action[] {
-  const inSpace = room?.dimension === 3 ? planeActions(stage) : [];
-  return [...toolActions(room), ...(room?.actions ?? []), ...coreActions(stage, tools, room), ...inSpace, pictureAction(stage)];
+  return [
+    ...toolActions(room),
+    ...(room?.actions ?? []),
+    ...(room && areAllFixed(room) ? [] : handleActions(room)),
+    ...coreActions(stage, tools, room),
+    ...(room?.dimension === 3 && room.pen ? planeActions(stage) : []),
+    pictureAction(stage),
+  ];
 }
 
+/** The tools, of which modes without a pen have no choice. */
 function toolActions(room: Room | undefined): readonly Action[] {
   const pen = room?.pen;
+  if (!pen) return [];
   const select: Action = {
     id: 'select',
     label: 'Select',
-    help: `Select: drag a vertex, or what is chosen; drag elsewhere to ${room?.dimension === 3 ? 'turn' : 'move'} the view`,
+    help: `Select: drag a vertex, or what is chosen; drag elsewhere to ${room.dimension === 3 ? 'turn' : 'move'} the view`,
     section: 'Tools',
     keys: ['v'],
     bar: 'tools',
     icon: 'select',
-    isOn: () => tool.value === 'select' || !pen,
+    isOn: () => tool.value === 'select',
     run: () => (tool.value = 'select'),
   };
-  if (!pen) return [select];
   const draw: Action = {
     id: 'draw',
     label: 'Draw',
@@ -70,7 +80,7 @@ function toolActions(room: Room | undefined): readonly Action[] {
 
 const kPlanes: readonly PlaneKind[] = ['xy', 'yz', 'zx', 'view'];
 
-/** Those of modes in space: the plane that is drawn in. */
+/** Those of modes with a pen in space: the plane that is drawn in. */
 function planeActions(stage: Stage): readonly Action[] {
   return [
     ...kPlanes.map(
@@ -93,6 +103,31 @@ function planeActions(stage: Stage): readonly Action[] {
   ];
 }
 
+/** Those of modes whose objects have vertices, or parts, that can be moved and removed. */
+function handleActions(room: Room | undefined): readonly Action[] {
+  const part = room?.partNoun ?? nounsOf(room)[0];
+  return [
+    { id: 'handle before', label: 'Previous vertex', keys: [','], run: () => { stepHandle(-1); } },
+    { id: 'handle after', label: 'Next vertex', keys: ['.'], run: () => { stepHandle(1); } },
+    {
+      id: 'delete',
+      label: () => (typeof chosen.value?.handle === 'number' ? 'Delete the chosen vertex' : `Delete the chosen ${part}`),
+      help: 'Delete the chosen vertex, or all that is chosen',
+      section: 'Edit',
+      keys: ['delete', 'backspace'],
+      bar: 'bin',
+      icon: 'trash',
+      applies: () => selection.value.some(isMovable),
+      run: () => {
+        const id = group.peek()?.id;
+        if (id !== undefined) dispatch({ type: 'delete', group: id, places: selection.peek() });
+      },
+    },
+  ];
+}
+
+const nounsOf = (room: Room | undefined): Room['nouns'] => room?.nouns ?? ['object', 'objects'];
+
 const pictureAction = (stage: Stage): Action => ({
   id: 'picture',
   label: 'Export the picture',
@@ -103,8 +138,7 @@ const pictureAction = (stage: Stage): Action => ({
 });
 
 function coreActions(stage: Stage, tools: Tools, room: Room | undefined): readonly Action[] {
-  const [one, many] = room?.nouns ?? ['object', 'objects'];
-  const part = room?.partNoun ?? one;
+  const [, many] = nounsOf(room);
   const viewpoint = () => stage.current.peek()?.viewpoint;
   const arrow = (key: string, right: number, up: number): Action => ({
     id: key,
@@ -156,22 +190,6 @@ function coreActions(stage: Stage, tools: Tools, room: Room | undefined): readon
     },
     { id: 'part before', label: 'Previous part', keys: ['['], run: () => { stepPart(-1); } },
     { id: 'part after', label: 'Next part', keys: [']'], run: () => { stepPart(1); } },
-    { id: 'handle before', label: 'Previous vertex', keys: [','], run: () => { stepHandle(-1); } },
-    { id: 'handle after', label: 'Next vertex', keys: ['.'], run: () => { stepHandle(1); } },
-    {
-      id: 'delete',
-      label: () => (typeof chosen.value?.handle === 'number' ? 'Delete the chosen vertex' : `Delete the chosen ${part}`),
-      help: 'Delete the chosen vertex, or all that is chosen',
-      section: 'Edit',
-      keys: ['delete', 'backspace'],
-      bar: 'bin',
-      icon: 'trash',
-      applies: () => selection.value.some(isMovable),
-      run: () => {
-        const id = group.peek()?.id;
-        if (id !== undefined) dispatch({ type: 'delete', group: id, places: selection.peek() });
-      },
-    },
     {
       id: 'clear',
       label: `Clear all ${many}`,
@@ -186,7 +204,7 @@ function coreActions(stage: Stage, tools: Tools, room: Room | undefined): readon
     {
       id: 'escape',
       label: 'Cancel',
-      help: 'Cancel the stroke, the drag or the work; choose nothing',
+      help: room && areAllFixed(room) ? 'Cancel the work; choose nothing' : 'Cancel the stroke, the drag or the work; choose nothing',
       section: 'Edit',
       keys: ['escape'],
       run: () => {
@@ -219,12 +237,15 @@ function coreActions(stage: Stage, tools: Tools, room: Room | undefined): readon
 }
 
 /** Rows of the help sheet for what is no single action. */
-export function coreHelp({ nouns, partNoun }: Room): readonly HelpRow[] {
-  return [
-    { section: 'View', keys: 'Wheel, pinch', what: 'Zoom' },
-    { section: 'Edit', keys: '[ ]', what: `Previous and next ${partNoun ?? nouns[0]}` },
+export function coreHelp(room: Room): readonly HelpRow[] {
+  const ofHandles: readonly HelpRow[] = [
     { section: 'Edit', keys: ', .', what: 'Previous and next vertex' },
     { section: 'Edit', keys: 'Arrows', what: 'Move what is chosen in the screen; Shift: further' },
+  ];
+  return [
+    { section: 'View', keys: 'Wheel, pinch', what: 'Zoom' },
+    { section: 'Edit', keys: '[ ]', what: `Previous and next ${room.partNoun ?? room.nouns[0]}` },
+    ...(areAllFixed(room) ? [] : ofHandles),
     { section: 'Edit', keys: 'Shift click, Shift drag', what: 'Choose more; all in a box' },
   ];
 }

@@ -9,6 +9,8 @@ import type { Failure } from '../state/work.ts';
 
 /** More, or closer together, would hide what they are about; the panel lists them. In CSS pixels. */
 const kMost = 3;
+/** Of thousands no more than the first so many are looked at, each time that the view moves. */
+const kMostTried = 200;
 const kApart = 90;
 /** What a label may need to the right of its place and below it, in CSS pixels. */
 const kRoom = [280, 90] as const;
@@ -28,7 +30,7 @@ export function FaultLabels({ stage, failures }: FaultLabelsProps) {
     });
   }, [stage, isNeeded]);
   const labels: { readonly failure: Failure; readonly at: Spot }[] = [];
-  for (const failure of failures) {
+  for (const failure of failures.slice(0, kMostTried)) {
     const at = placeOf(stage, failure);
     if (at && labels.length < kMost && labels.every((other) => distanceOf(other.at, at) > kApart)) labels.push({ failure, at });
   }

@@ -1,9 +1,9 @@
 // Files in and out: opened by what is in them, or named with what can open them; saved as downloads.
 import type { Item } from '../state/document.ts';
 import { complain, say, settle } from '../state/notice.ts';
-import { choose, dispatch, ensureGroup, requestFrame } from '../state/store.ts';
+import { ensureGroup, openItems } from '../state/store.ts';
 import { Content } from './content.ts';
-import type { FileKind, Mode, ReadFile, Room } from './mode.ts';
+import type { FileKind, Mode, Room } from './mode.ts';
 
 /** Files beyond this are not drawn by anyone. */
 const kMaxMegabytes = 64;
@@ -22,7 +22,7 @@ export interface Destination {
 
 /** A file that was read, or why not. */
 type Outcome = { readonly file: File } & (
-  | { readonly is: 'read'; readonly content: ReadFile; readonly stem: string }
+  | { readonly is: 'read'; readonly items: readonly Item[]; readonly name: string }
   /** Of a format that another mode opens. */
   | { readonly is: 'elsewhere'; readonly what: string; readonly opener: Mode }
   /** Of a format that no mode opens; null: of none that is known. */
@@ -58,16 +58,15 @@ async function read(file: File, { mode, room, modes }: Destination): Promise<Out
   } catch {
     return broken('the browser could not read it');
   }
-  const stem = file.name.replace(/\.[^.]*$/, '');
-  const content = new Content(bytes, stem);
+  const content = new Content(bytes, file.name.replace(/\.[^.]*$/, ''));
   if (content.head === '') return broken('it is empty');
   const kind = kindIn(mode, content);
   if (kind) {
     try {
       await nextTask();
-      const found = await room.read(kind.id, content);
+      const { items, name = content.stem } = await room.read(kind.id, content);
       await nextTask();
-      return { file, is: 'read', content: found, stem };
+      return { file, is: 'read', items, name };
     } catch (error) {
       return broken(reasonOf(error, 'what reads files could not be loaded'));
     }
@@ -102,21 +101,16 @@ function reasonOf(error: unknown, unfetched: string): string {
 }
 
 function itemsOf(opened: readonly Extract<Outcome, { is: 'read' }>[]): Item[] {
-  return opened.flatMap(({ content }) => content.items);
+  return opened.flatMap(({ items }) => items);
 }
 
 function show(opened: readonly Extract<Outcome, { is: 'read' }>[], { mode, room }: Destination): void {
-  const [{ content, stem }] = opened;
-  const name = content.name ?? stem;
+  const [{ name }] = opened;
   const more = opened.length - 1;
-  choose();
-  dispatch({
-    type: 'open',
-    group: ensureGroup(mode.id, room.settings).id,
+  openItems(ensureGroup(mode.id, room.settings), {
     name: more === 0 ? name : `${name} and ${more} more`,
     items: itemsOf(opened),
   });
-  requestFrame();
 }
 
 /** Says what has become of the files, in one remark. */

@@ -5,14 +5,9 @@ import type { FileKind } from './mode.ts';
 
 type KnownFile = Pick<FileKind, 'what' | 'isIt'>;
 
-/** Whether the bytes from `at` on are those of the letters. */
-function hasMark({ bytes }: Content, mark: string, at = 0): boolean {
-  return Array.from(mark, (letter) => letter.charCodeAt(0)).every((code, i) => bytes[at + i] === code);
-}
-
 const marked = (what: string, ...marks: readonly string[]): KnownFile => ({
   what,
-  isIt: (content) => marks.some((mark) => hasMark(content, mark)),
+  isIt: (content) => marks.some((mark) => content.hasMark(mark)),
 });
 
 /** Text that begins in such a way. */
@@ -36,7 +31,7 @@ export const kKnownFiles: readonly KnownFile[] = [
   marked('a PNG picture', '\x89PNG'),
   marked('a JPEG picture', '\xff\xd8\xff'),
   marked('a GIF picture', 'GIF87a', 'GIF89a'),
-  { what: 'a WebP picture', isIt: (content) => hasMark(content, 'RIFF') && hasMark(content, 'WEBP', 8) },
+  { what: 'a WebP picture', isIt: (content) => content.hasMark('RIFF') && content.hasMark('WEBP', 8) },
   marked('a TIFF picture', 'II*\0', 'MM\0*'),
   marked('a PDF document', '%PDF-'),
   marked('a ZIP archive, or a file packed in one, such as 3MF', 'PK\x03\x04', 'PK\x05\x06'),

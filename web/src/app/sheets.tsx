@@ -76,7 +76,7 @@ function Help({ actions }: { actions: readonly Action[] }) {
     return action.section && keys ? [{ section: action.section, keys, what: action.help ?? labelOf(action) }] : [];
   });
   const rows = [...ofActions, ...(room ? coreHelp(room) : []), ...(room?.help.rows ?? [])];
-  const sections = [...new Set([...kSections, ...rows.map(({ section }) => section)])];
+  const sections = [...new Set([...kSections, ...rows.map(({ section }) => section)])].filter((title) => rows.some(({ section }) => section === title));
   return (
     <>
       <p class="muted">{room?.help.about} On a Mac, Ctrl is ⌘.</p>

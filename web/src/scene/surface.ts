@@ -1,5 +1,6 @@
 // A surface in space: lit on both sides, with its edges, growing triangle by triangle.
-import { BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, ShaderMaterial, Vector3 } from 'three';
+import { BufferAttribute, BufferGeometry, Mesh, Vector3, type ShaderMaterial } from 'three';
+import { colorUniforms, kCorner, kLight, setColors, surfaceMaterial } from './glsl.ts';
 import { toScene, type Placement } from './placement.ts';
 import type { SurfaceColors } from './theme.ts';
 
@@ -7,8 +8,8 @@ import type { SurfaceColors } from './theme.ts';
 const kUnfold = 0.16;
 
 const kVertexShader = /* glsl */ `
+${kCorner}
 attribute vec3 center;
-attribute vec3 corner;
 attribute float birth;
 uniform float uTime;
 uniform float uUnfold;
@@ -22,13 +23,13 @@ void main() {
   vec4 eye = modelViewMatrix * vec4(mix(center, position, grown), 1.0);
   vNormal = normalMatrix * normal;
   vEye = -eye.xyz;
-  vCorner = corner;
+  vCorner = cornerOf(gl_VertexID);
   gl_Position = projectionMatrix * eye;
 }`;
 
-// Light comes from over the viewer's left shoulder and from the sky. Seen aslant, the colour runs
-// through a few bands as a thin film's does, faintly.
+// Seen aslant, the colour runs through a few bands as a thin film's does, faintly.
 const kFragmentShader = /* glsl */ `
+${kLight}
 uniform vec3 uFront;
 uniform vec3 uBack;
 uniform vec3 uWire;
@@ -46,15 +47,11 @@ void main() {
   bool front = dot(n, toEye) >= 0.0;
   if (!front) n = -n;
   float facing = clamp(dot(n, toEye), 0.0, 1.0);
-  float key = clamp(dot(n, normalize(vec3(-0.45, 0.65, 0.7))), 0.0, 1.0);
-  float fill = clamp(dot(n, normalize(vec3(0.8, -0.1, 0.45))), 0.0, 1.0);
-  vec3 base = front ? uFront : uBack;
-  vec3 color = base * (0.5 + 0.52 * key + 0.14 * fill);
+  vec3 color = (front ? uFront : uBack) * lightOn(n, vec3(0.5, 0.52, 0.14));
   float aslant = pow(1.0 - facing, 1.5);
   vec3 film = 0.5 + 0.5 * cos(6.2832 * (1.3 * facing + vec3(0.05, 0.38, 0.72)));
   color *= mix(vec3(1.0), 0.74 + 0.56 * film, 0.12 + 0.6 * aslant);
-  vec3 h = normalize(normalize(vec3(-0.45, 0.65, 0.7)) + toEye);
-  color += 0.12 * pow(clamp(dot(n, h), 0.0, 1.0), 32.0);
+  color += 0.12 * glossOn(n, toEye);
   vec3 perPixel = fwidth(vCorner);
   vec3 inside = smoothstep(perPixel * (uWireWidth - 0.6), perPixel * (uWireWidth + 0.6), vCorner);
   float wire = 1.0 - min(min(inside.x, inside.y), inside.z);
@@ -75,25 +72,13 @@ export class SurfaceMesh {
   readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
 
   constructor() {
-    const material = new ShaderMaterial({
-      vertexShader: kVertexShader,
-      fragmentShader: kFragmentShader,
-      side: DoubleSide,
-      // Pushed back, so that the curves and their vertices lie on it unbroken.
-      polygonOffset: true,
-      polygonOffsetFactor: 1,
-      polygonOffsetUnits: 2,
-      uniforms: {
-        uTime: { value: 1 + kUnfold },
-        uUnfold: { value: kUnfold },
-        uFront: { value: new Color() },
-        uBack: { value: new Color() },
-        uWire: { value: new Color() },
-        uGlow: { value: new Color() },
-        uWireWidth: { value: 0.6 },
-        uWireOpacity: { value: 0.6 },
-        uOpacity: { value: 1 },
-      },
+    const material = surfaceMaterial(kVertexShader, kFragmentShader, 2, {
+      uTime: { value: 1 + kUnfold },
+      uUnfold: { value: kUnfold },
+      ...colorUniforms('uFront', 'uBack', 'uWire', 'uGlow'),
+      uWireWidth: { value: 0.6 },
+      uWireOpacity: { value: 0.6 },
+      uOpacity: { value: 1 },
     });
     this.mesh = new Mesh(new BufferGeometry(), material);
     this.mesh.visible = false;
@@ -106,7 +91,6 @@ export class SurfaceMesh {
     const position = new Float32Array(9 * m);
     const normal = new Float32Array(9 * m);
     const center = new Float32Array(9 * m);
-    const corner = new Float32Array(9 * m);
     const birth = new Float32Array(3 * m);
     const [a, b, c, n, g] = [new Vector3(), new Vector3(), new Vector3(), new Vector3(), new Vector3()];
     surface.order.forEach((triangle, rank) => {
@@ -123,7 +107,6 @@ export class SurfaceMesh {
         point.toArray(position, at);
         n.toArray(normal, at);
         g.toArray(center, at);
-        corner[at + i] = 1;
         birth[3 * rank + i] = rank / m;
       });
     });
@@ -132,7 +115,6 @@ export class SurfaceMesh {
     geometry.setAttribute('position', new BufferAttribute(position, 3));
     geometry.setAttribute('normal', new BufferAttribute(normal, 3));
     geometry.setAttribute('center', new BufferAttribute(center, 3));
-    geometry.setAttribute('corner', new BufferAttribute(corner, 3));
     geometry.setAttribute('birth', new BufferAttribute(birth, 1));
     this.mesh.geometry = geometry;
   }
@@ -142,12 +124,8 @@ export class SurfaceMesh {
     this.mesh.material.uniforms.uTime.value = share * (1 + kUnfold);
   }
 
-  setColors(colors: SurfaceColors): void {
-    const { uniforms } = this.mesh.material;
-    (uniforms.uFront.value as Color).set(colors.front);
-    (uniforms.uBack.value as Color).set(colors.back);
-    (uniforms.uWire.value as Color).set(colors.wire);
-    (uniforms.uGlow.value as Color).set(colors.glow);
+  setColors({ front, back, wire, glow }: SurfaceColors): void {
+    setColors(this.mesh.material, { uFront: front, uBack: back, uWire: wire, uGlow: glow });
   }
 
   /** A stale surface fades while the next one is computed. */

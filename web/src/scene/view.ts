@@ -1,5 +1,5 @@
 // The view: the one renderer, and the viewpoint that is in use. Draws on demand, and only then.
-import { signal } from '@preact/signals';
+import { effect, signal } from '@preact/signals';
 import { Color, Scene, WebGLRenderer } from 'three';
 import type { Viewpoint, Animation, Screen } from './viewpoint.ts';
 
@@ -48,6 +48,14 @@ export class View implements Screen {
     this.pending ||= requestAnimationFrame((now) => {
       this.pending = 0;
       this.draw(now);
+    });
+  }
+
+  /** Draws something now, and anew whenever what it read has changed. */
+  follow(draw: () => void): void {
+    effect(() => {
+      draw();
+      this.invalidate();
     });
   }
 

@@ -52,6 +52,34 @@ export function groupOf<S extends object>(of: string, settings: S): ReadonlySign
 /** The group of the mode that the page is in; null until it is there. */
 export const group = computed(() => doc.value.groups.find((each) => each.mode === mode.value) ?? null);
 
+/** Changes settings of a group; changes of one `gesture` are one step until the change that is not `passing`. */
+export function setIn<S extends object>({ id }: Group<S>, settings: Partial<S>, gesture?: string, passing = false): void {
+  dispatch({ type: 'set', group: id, settings }, gesture);
+  if (gesture !== undefined && !passing) endGesture();
+}
+
+/** What a group is to hold in place of what it has. */
+export interface Opening {
+  readonly name: string;
+  readonly items: readonly Item[];
+  readonly settings?: object;
+  /** From the objects towards the viewer; absent: as it is. */
+  readonly view?: Point;
+}
+
+/** Opens objects in a group, as one step of the history, and has them in view. */
+export function openItems({ id }: Group, { view, ...opened }: Opening): void {
+  choose();
+  dispatch({ type: 'open', group: id, ...opened });
+  requestFrame(view);
+}
+
+/** Opens them as what was there from the beginning. */
+export function beginWith(group: Group, { view, ...opened }: Opening): void {
+  put({ ...group, ...opened });
+  requestFrame(view, true);
+}
+
 export type Tool = 'select' | 'draw';
 export const tool = signal<Tool>('select');
 

@@ -91,12 +91,18 @@ export function endShownWork(): boolean {
 }
 
 const threads = new Map<Part, Promise<Film>>();
+/** Holes are shared out among so many threads at the most. */
+const kMostThreads = 4;
+
+/** Only calls about meshes are shared out; one core is left to the page. */
+const threadsOf = (part: Part): number =>
+  part === 'meshes' ? Math.max(1, Math.min(kMostThreads, navigator.hardwareConcurrency - 1)) : 1;
 
 /** The threads for a part of the library; made when first wanted, and again after that has failed. */
 function threadsFor(part: Part): Promise<Film> {
   const known = threads.get(part);
   if (known) return known;
-  const made = createWorker({ parts: [part] });
+  const made = createWorker({ parts: [part], size: threadsOf(part) });
   threads.set(part, made);
   made.catch(() => threads.delete(part));
   return made;
@@ -222,5 +228,6 @@ const whenAborted = (signal: AbortSignal): Promise<never> =>
 /** The failure of an error without a place. */
 export function plainFailure(error: unknown): Failure {
   const code = error instanceof SoapfilmError ? error.code : 'crashed';
-  return { code, message: error instanceof Error ? error.message : String(error), faults: [] };
+  const words = error instanceof Error ? error.message : String(error);
+  return { code, message: code === 'load-failed' ? `soapfilm could not be loaded: ${words}` : words, faults: [] };
 }

@@ -1,9 +1,9 @@
 // The film's state, apart from the document: its group, the pen, and changes from the panel.
 import { signal } from '@preact/signals';
 import { newItem } from '../../state/document.ts';
-import { dispatch, endGesture, groupOf, requestFrame, choose, type Pen } from '../../state/store.ts';
+import { beginWith, groupOf, openItems, setIn, type Opening, type Pen } from '../../state/store.ts';
 import { kCurve } from './curve.ts';
-import type { Example } from './gallery.ts';
+import { kGallery, type Example } from './gallery.ts';
 import { curveOf, kDefaultSettings, type FilmSettings } from './settings.ts';
 
 export const kMode = 'film';
@@ -14,23 +14,25 @@ export const pen = signal<Pen>({ count: 24, smoothing: 0.4 });
 
 /** Changes settings; those of one `gesture` are one step until the change that is not `passing`. */
 export function setFilm(settings: Partial<FilmSettings>, gesture?: string, passing = false): void {
-  dispatch({ type: 'set', group: film.peek().id, settings }, gesture);
-  if (gesture !== undefined && !passing) endGesture();
+  setIn(film.peek(), settings, gesture, passing);
 }
 
-export const itemsOf = (example: Example, variant?: number) =>
-  example.curves(variant).map((points) => newItem(kCurve, curveOf(points)));
-
-export const nameOf = ({ title }: Example, variant?: number): string => (variant === undefined ? title : `${title} (${variant})`);
+function openingOf(example: Example, variant: number | undefined): Opening {
+  const { title, settings, view } = example;
+  return {
+    name: variant === undefined ? title : `${title} (${variant})`,
+    items: example.curves(variant).map((points) => newItem(kCurve, curveOf(points))),
+    settings,
+    view,
+  };
+}
 
 export function openExample(example: Example, variant: number | undefined): void {
-  choose();
-  dispatch({
-    type: 'open',
-    group: film.peek().id,
-    name: nameOf(example, variant),
-    items: itemsOf(example, variant),
-    settings: example.settings,
-  });
-  requestFrame(example.view);
+  openItems(film.peek(), openingOf(example, variant));
+}
+
+/** The first example, as what was there from the beginning. */
+export function beginWithExample(): void {
+  const [first] = kGallery;
+  beginWith(film.peek(), openingOf(first, first.variants?.values[0]));
 }

@@ -37,26 +37,23 @@ export class FilmScene {
       const bounds = surface.value && boundsOf(boxOfGroup(surface.value.of));
       return bounds && placementFor(bounds, present) === present ? surface.value : null;
     });
-    effect(() => {
+    view.follow(() => {
       this.mesh.setColors(theme.value.surface);
-      view.invalidate();
     });
-    effect(() => {
+    view.follow(() => {
       if (drawn.value === null) return;
       const better = smoothed.value?.of === drawn.value ? smoothed.value.surface : null;
       this.mesh.setSurface(better ? inOrder(better) : drawn.value.span, scene.placement.value);
-      view.invalidate();
     });
     effect(() => {
       this.show(surface.value);
     });
-    effect(() => {
+    view.follow(() => {
       const { surface: visible, wires } = shown.value;
       this.mesh.mesh.visible = visible && drawn.value !== null;
       this.mesh.setLook({ wires, faded: isStale.value });
-      view.invalidate();
     });
-    effect(() => {
+    view.follow(() => {
       const span = isStale.value ? undefined : drawn.value?.span;
       const dots = this.inserted.begin(scene.placement.value);
       const { inserted: color, rim } = theme.value.curves;
@@ -66,7 +63,6 @@ export class FilmScene {
         }
       }
       this.inserted.show(view.pixelRatio.value, rim);
-      view.invalidate();
     });
   }
 

@@ -4,9 +4,9 @@ import type { CandidateSpace } from 'soapfilm';
 import { decades, NumberField, Section, Segments, Switch, type Choice } from '../../app/controls.tsx';
 import { countOf } from '../../app/files.ts';
 import { Icon } from '../../app/icons.tsx';
-import { Show } from '../../app/panel_parts.tsx';
+import { Flags, Show } from '../../app/panel_parts.tsx';
 import { pointCount } from '../../shapes/lines.ts';
-import { choose, chosen, dispatch, endGesture } from '../../state/store.ts';
+import { choose, chosen, dispatch, endGesture, shown } from '../../state/store.ts';
 import { film, setFilm } from './film.ts';
 import { Result } from './result.tsx';
 import { curvesOf, kPresets, presetOf, type FilmSettings, type RelativeWeights } from './settings.ts';
@@ -18,7 +18,9 @@ export function FilmPanel() {
       <Result />
       <Film />
       <Curves />
-      <Show labels={{ surface: 'Surface', wires: 'Edges', vertices: 'Vertices', grid: 'Grid' }} />
+      <Show>
+        <Flags of={shown} labels={{ surface: 'Surface', wires: 'Edges', vertices: 'Vertices', grid: 'Grid' }} />
+      </Show>
     </>
   );
 }

@@ -3,10 +3,10 @@ import { useEffect, useState } from 'preact/hooks';
 import type { CandidateSpace, Span, SpaceUsed } from 'soapfilm';
 import { Section } from '../../app/controls.tsx';
 import { Icon } from '../../app/icons.tsx';
-import { Row } from '../../app/panel_parts.tsx';
-import type { WorkState } from '../../state/work.ts';
+import { Row, Trouble } from '../../app/panel_parts.tsx';
+import type { Failure, WorkState } from '../../state/work.ts';
 import { film, setFilm } from './film.ts';
-import { smoothed, smoothing } from './smoothing.ts';
+import { isSmoothing, smoothed, smoothing } from './smoothing.ts';
 import { isStale, none, spanning, surface, type Bounds } from './spanning.ts';
 
 type StateIn<Phase> = Extract<WorkState<Bounds>, { readonly phase: Phase }>;
@@ -29,9 +29,8 @@ export function Result() {
   return (
     <Section title="Result">
       {state.phase === 'running' && <Running state={state} />}
-      {state.phase === 'failed' && <Failed state={state} />}
+      <Trouble work={spanning}>{state.phase === 'failed' && isTooMuch(state) && <TakeLess />}</Trouble>
       {state.phase === 'done' && none.value && <None candidates={none.value.candidates} />}
-      {state.phase === 'cancelled' && <Cancelled />}
       {state.phase === 'idle' && <p class="muted">Nothing to span yet. Draw a closed curve, open a file, or take one from the gallery.</p>}
       {span && <Figures span={span} faded={isStale.value} />}
       <SmoothFigures />
@@ -79,31 +78,22 @@ function useSecondsSince(since: number): number {
   return Math.max(0, Math.floor((now - since) / 1000));
 }
 
-function Failed({ state }: { state: StateIn<'failed'> }) {
-  const isTooMuch =
-    ['too-large', 'out-of-memory', 'crashed'].includes(state.code) && film.value.settings.candidates !== 'delaunay';
+/** Whether fewer candidates may do. */
+const isTooMuch = ({ code }: Failure): boolean =>
+  ['too-large', 'out-of-memory', 'crashed'].includes(code) && film.value.settings.candidates !== 'delaunay';
+
+function TakeLess() {
   return (
-    <div class="message error">
-      <p>{state.message}</p>
-      {state.faults.length > 0 && <p class="muted">The place is marked in red.</p>}
-      {state.code === 'load-failed' && (
-        <button type="button" class="button" onClick={spanning.start}>
-          Try again
-        </button>
-      )}
-      {isTooMuch && (
-        <button
-          type="button"
-          class="button"
-          onClick={() => {
-            setFilm({ candidates: 'delaunay' });
-            spanning.start();
-          }}
-        >
-          Take Delaunay triangles
-        </button>
-      )}
-    </div>
+    <button
+      type="button"
+      class="button small"
+      onClick={() => {
+        setFilm({ candidates: 'delaunay' });
+        spanning.start();
+      }}
+    >
+      Take Delaunay triangles
+    </button>
   );
 }
 
@@ -127,17 +117,6 @@ function None({ candidates }: { candidates: SpaceUsed }) {
           {wider.label}
         </button>
       )}
-    </div>
-  );
-}
-
-function Cancelled() {
-  return (
-    <div class="message">
-      <p>Cancelled.</p>
-      <button type="button" class="button" onClick={spanning.start}>
-        Span again
-      </button>
     </div>
   );
 }
@@ -180,14 +159,12 @@ function Figures({ span, faded }: { span: Span; faded: boolean }) {
 
 /** What smoothing came to. */
 function SmoothFigures() {
-  const state = smoothing.state.value;
   const found = smoothed.value;
   if (film.value.settings.smooth === 'none' || surface.value === null) return null;
-  if (state.phase === 'failed') return <p class="message error">{state.message}</p>;
-  if (found === null) return <p class="muted">Smoothing…</p>;
+  if (found === null) return isSmoothing.value ? <p class="muted">Smoothing…</p> : <Trouble work={smoothing} />;
   const { area, collapsed, triangles } = found.surface;
   return (
-    <div class="figures">
+    <div class={isSmoothing.value ? 'figures faded' : 'figures'}>
       {collapsed.length > 0 && (
         <p class="message">There is no soap film between these curves: its neck has shrunk to a thread. Move them closer.</p>
       )}

@@ -1,5 +1,6 @@
 // The room of films: curves in space, drawn or opened, spanned as they change.
 import { computed } from '@preact/signals';
+import type { SmoothSurface, Span } from 'soapfilm';
 import type { Action } from '../../app/actions.ts';
 import { openDialog } from '../../app/dialogs.tsx';
 import { countOf, fileStem, save } from '../../app/files.ts';
@@ -12,17 +13,16 @@ import { pointAt, pointCount } from '../../shapes/lines.ts';
 import { dot, subtract } from '../../shapes/vec.ts';
 import { newItem } from '../../state/document.ts';
 import { complain, settle } from '../../state/notice.ts';
-import { choose, dispatch, put, requestFrame } from '../../state/store.ts';
+import { choose, dispatch, requestFrame } from '../../state/store.ts';
 import { kCurve } from './curve.ts';
-import { film, itemsOf, nameOf, pen } from './film.ts';
+import { beginWithExample, film, pen } from './film.ts';
 import { FilmScene, isGrowing } from './film_scene.ts';
-import { kGallery } from './gallery.ts';
 import { Gallery } from './gallery_sheet.tsx';
 import { exposeFilm } from './inspection.ts';
 import { FilmPanel } from './panel.tsx';
 import { figure } from './result.tsx';
 import { areFilmSettings, curveOf, curvesOf, fromLoopSet, kDefaultSettings, toLoopSet, type FilmSettings } from './settings.ts';
-import { smoothed } from './smoothing.ts';
+import { isSmoothing, smoothed } from './smoothing.ts';
 import { isStale, none, spanning, surface } from './spanning.ts';
 
 /** A vertex nearer to a plane lies in it, in radii of what is in view. */
@@ -39,12 +39,7 @@ export function openRoom(stage: Stage): Room {
     fileNoun: 'loops',
     settings: kDefaultSettings,
     areSettings: (settings) => areFilmSettings(settings as FilmSettings),
-    begin() {
-      const [first] = kGallery;
-      const variant = first.variants?.values[0];
-      put({ ...film.peek(), name: nameOf(first, variant), settings: first.settings, items: itemsOf(first, variant) });
-      requestFrame(first.view, true);
-    },
+    begin: beginWithExample,
     draw(modeScene) {
       scene = new FilmScene(stage, modeScene);
       exposeFilm(modeScene.viewpoint, stage.view.canvas);
@@ -187,8 +182,12 @@ function saveSurface(): void {
     return;
   }
   const { name } = film.peek();
-  const better = smoothed.peek()?.of === present ? smoothed.peek() : null;
-  save(`${fileStem(name)}.obj`, 'model/obj', async () => (await fetchFormats()).formatObj(better?.surface ?? present.span, { name }));
+  const write = (of: Span | SmoothSurface): void => {
+    save(`${fileStem(name)}.obj`, 'model/obj', async () => (await fetchFormats()).formatObj(of, { name }));
+  };
+  if (isSmoothing.peek()) {
+    complain('The surface is still being smoothed.', 'export', { label: 'Export as it was spanned', run: () => { write(present.span); } });
+  } else write(smoothed.peek()?.surface ?? present.span);
 }
 
 function saveCurves(format: 'curve' | 'json'): void {

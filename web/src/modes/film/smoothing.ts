@@ -16,20 +16,19 @@ export interface Smoothed {
 
 const latest = signal<Smoothed | null>(null);
 
-/** The smoothed surface of what was spanned last; null where none is asked for, or it is not there yet. */
-export const smoothed = computed(() => (film.value.settings.smooth === 'none' ? null : latest.value));
-
 /** More would be slow to draw and tell nothing more. */
 const kMostVertices = 20_000;
+
+const input = computed(() => {
+  const [of, kind] = [surface.value, film.value.settings.smooth];
+  return of === null || isStale.value || kind === 'none' ? null : { of, kind };
+});
 
 export const smoothing = createWork<{ readonly of: Surface; readonly kind: SmoothKind }, Smoothed>({
   mode: kMode,
   verb: 'Smoothing',
   part: 'meshes',
-  input: computed(() => {
-    const [of, kind] = [surface.value, film.value.settings.smooth];
-    return of === null || isStale.value || kind === 'none' ? null : { of, kind };
-  }),
+  input,
   async compute(library, { of, kind }, { signal: ends }) {
     const since = performance.now();
     const { positions, triangles } = of.span;
@@ -41,4 +40,20 @@ export const smoothing = createWork<{ readonly of: Surface; readonly kind: Smoot
     if (found !== null || surface.peek() === null || film.peek().settings.smooth === 'none') latest.value = found;
   },
   explain: plainFailure,
+});
+
+/** Whether a smoothed surface is what the settings ask for, of what was spanned last. */
+const isWanted = ({ of, kind }: Smoothed): boolean => of === surface.value && kind === film.value.settings.smooth;
+
+/** Whether one is asked for that is still to come. */
+export const isSmoothing = computed(
+  () => input.value !== null && !isOver() && !(latest.value !== null && isWanted(latest.value)),
+);
+
+const isOver = (): boolean => ['failed', 'cancelled'].includes(smoothing.state.value.phase);
+
+/** The smoothed surface: another one only while what is asked for is still to come. Null where there is none. */
+export const smoothed = computed(() => {
+  if (latest.value === null || film.value.settings.smooth === 'none') return null;
+  return isSmoothing.value || isWanted(latest.value) ? latest.value : null;
 });

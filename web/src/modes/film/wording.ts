@@ -2,7 +2,7 @@
 import { SoapfilmError } from 'soapfilm';
 import { pointAt, pointCount, type Lines } from '../../shapes/lines.ts';
 import type { Item } from '../../state/document.ts';
-import type { Failure, Fault } from '../../state/work.ts';
+import { plainFailure, type Failure, type Fault } from '../../state/work.ts';
 import type { FilmGroup } from './settings.ts';
 
 /** A curve of the film by its number, and one of its vertices. */
@@ -12,7 +12,7 @@ interface Culprit {
 }
 
 export function describeFailure(error: unknown, { items }: FilmGroup): Failure {
-  if (!(error instanceof SoapfilmError)) return { code: 'crashed', message: String(error), faults: [] };
+  if (!(error instanceof SoapfilmError)) return plainFailure(error);
   const isEdge = error.code === 'loops-intersect';
   const culprits: Culprit[] = [];
   const note = (curve: number | undefined, vertex: number | undefined) => {
@@ -53,7 +53,7 @@ function messageOf(error: SoapfilmError, [first, second]: readonly (Culprit | un
       if (!first) break;
       return `Curve ${first.curve + 1} has fewer than three vertices.`;
   }
-  return error.message;
+  return plainFailure(error).message;
 }
 
 const placeOf = ({ curve, vertex }: Culprit): string => `vertex ${(vertex ?? 0) + 1} of curve ${curve + 1}`;

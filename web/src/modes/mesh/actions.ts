@@ -1,34 +1,38 @@
 // What can be done with meshes besides what all modes have.
 import { computed } from '@preact/signals';
+import type { MeshFormat } from 'soapfilm/files';
 import type { Action } from '../../app/actions.ts';
 import { fileStem, save } from '../../app/files.ts';
-import { add, cross, normalize, scale, subtract } from '../../shapes/vec.ts';
+import { add, cross, length, normalize, scale, subtract, type Point } from '../../shapes/vec.ts';
 import { newItem } from '../../state/document.ts';
 import { complain } from '../../state/notice.ts';
-import { choose, dispatch, put, requestFrame } from '../../state/store.ts';
+import { beginWith, openItems, requestFrame, type Opening } from '../../state/store.ts';
 import { kExamples, type Example } from './examples.ts';
 import { isSettled, patches, withPatches } from './filling.ts';
 import type { Hole } from './grouping.ts';
 import { chosenHoles, fill, fillAll, found, holes, isAnyLeft, leave, whole } from './holes.ts';
 import { view } from './looks.ts';
 import { meshKind } from './mesh_kind.ts';
-import { kNoChoices, meshGroup, type MeshShape } from './settings.ts';
+import { meshGroup } from './settings.ts';
 import { boxOfLoops, vertexAt } from './whole.ts';
 import { isFilled } from './wording.ts';
 
 /** What is about a hole that is looked at, in sizes of the hole. */
 const kAround = 2.2;
 
+/** A hole whose rims bound less area together than this share of what they bound singly faces nowhere. */
+const kFacing = 0.3;
+
 export const chosen = computed<readonly Hole[]>(() => chosenHoles.value.flatMap((h) => holes.value.at(h) ?? []));
 
-const kExport = (id: string, note: string, type: string, extension: string, write: (mesh: MeshShape, name: string) => Promise<Blob>): Action => ({
+const kExport = (id: string, note: string, type: string, format: MeshFormat): Action => ({
   id,
   label: `Export the filled mesh as ${note}`,
   bar: 'export',
   text: 'Filled mesh',
   note,
   applies: () => whole.value !== null,
-  run: () => { saveFilled(extension, type, write); },
+  run: () => { saveFilled(format, type); },
 });
 
 export const kActions: readonly Action[] = [
@@ -39,7 +43,7 @@ export const kActions: readonly Action[] = [
     section: 'Edit',
     keys: ['canvas+enter'],
     applies: () => chosen.value.length > 0,
-    run: () => { fill(...chosen.peek()); },
+    run: () => { fill(chosen.peek()); },
   },
   {
     id: 'leave chosen',
@@ -48,7 +52,7 @@ export const kActions: readonly Action[] = [
     section: 'Edit',
     keys: ['delete', 'backspace'],
     applies: () => chosen.value.length > 0,
-    run: () => { leave(...chosen.peek()); },
+    run: () => { leave(chosen.peek()); },
   },
   {
     id: 'fill all',
@@ -71,16 +75,13 @@ export const kActions: readonly Action[] = [
     isOn: () => view.value.zebra,
     run: () => (view.value = { ...view.peek(), zebra: !view.peek().zebra }),
   },
-  {
-    ...kExport('save obj', 'OBJ', 'model/obj', 'obj', async (mesh, name) => (await import('./write.ts')).writeObj(mesh, name)),
-    section: 'File',
-    keys: ['ctrl+s'],
-  },
-  kExport('save ply', 'PLY', 'application/octet-stream', 'ply', async (mesh) => (await import('./write.ts')).writePly(mesh)),
-  kExport('save stl', 'STL', 'model/stl', 'stl', async (mesh) => (await import('./write.ts')).writeStl(mesh)),
+  { ...kExport('save obj', 'OBJ', 'model/obj', 'obj'), section: 'File', keys: ['ctrl+s'] },
+  kExport('save ply', 'PLY', 'application/octet-stream', 'ply'),
+  kExport('save stl', 'STL', 'model/stl', 'stl'),
+  kExport('save glb', 'GLB', 'model/gltf-binary', 'glb'),
 ];
 
-function saveFilled(extension: string, type: string, write: (mesh: MeshShape, name: string) => Promise<Blob>): void {
+function saveFilled(format: MeshFormat, type: string): void {
   const of = whole.peek();
   if (of === null) return;
   if (found.peek() === null || !isSettled.peek()) {
@@ -89,38 +90,40 @@ function saveFilled(extension: string, type: string, write: (mesh: MeshShape, na
   }
   const { name } = meshGroup.peek();
   const filled = patches.peek().filter(isFilled);
-  save(`${fileStem(name)}${filled.length > 0 ? '-filled' : ''}.${extension}`, type, () => write(withPatches(of, filled), name));
+  save(`${fileStem(name)}${filled.length > 0 ? '-filled' : ''}.${format}`, type, async () => {
+    // Fetched when first wanted.
+    const { writeMesh } = await import('soapfilm/files');
+    return new Blob([await writeMesh(withPatches(of, filled), format, { name })], { type });
+  });
 }
 
-/** Brings a hole into view, from outside. */
+/** Brings a hole into view, from outside: from where the eye is, if it has no side of its own, as a missing band. */
 export function lookAt({ loops }: Hole): void {
   const now = found.peek();
   if (now === null) return;
-  const rim = Array.from(now.report.loops[loops[0]].vertices, (vertex) => vertexAt(now.of, vertex));
-  // Newell's sum, about a point of the rim so that far from the origin no digits are lost.
-  const arms = rim.map((point) => subtract(point, rim[0]));
-  const normal = arms.map((arm, i) => cross(arm, arms[(i + 1) % arms.length])).reduce(add);
+  const areas = loops.map((loop) => areaOf(Array.from(now.report.loops[loop].vertices, (vertex) => vertexAt(now.of, vertex))));
+  // Islands run the other way round, and take away from it.
+  const area = areas.reduce(add);
+  const isFacing = length(area) > kFacing * areas.reduce((sum, each) => sum + length(each), 0);
   const { low, high } = boxOfLoops(now, loops);
   const more = scale(subtract(high, low), (kAround - 1) / 2);
-  requestFrame(normalize(normal), false, { low: subtract(low, more), high: add(high, more) });
+  requestFrame(isFacing ? normalize(area) : undefined, false, { low: subtract(low, more), high: add(high, more) });
 }
 
-export function openExample({ title, shape, view: direction }: Example): void {
-  choose();
-  dispatch({
-    type: 'open',
-    group: meshGroup.peek().id,
-    name: title,
-    items: [newItem(meshKind, shape())],
-    settings: { ...meshGroup.peek().settings, of: [], ...kNoChoices },
-  });
-  requestFrame(direction);
+/** Twice the area that a rim bounds, along its normal: Newell's sum, about a point of the rim so that no digits are lost. */
+function areaOf(rim: readonly Point[]): Point {
+  const arms = rim.map((point) => subtract(point, rim[0]));
+  return arms.map((arm, i) => cross(arm, arms[(i + 1) % arms.length])).reduce(add);
+}
+
+const openingOf = ({ title, shape, view: direction }: Example): Opening => ({ name: title, items: [newItem(meshKind, shape())], view: direction });
+
+export function openExample(example: Example): void {
+  openItems(meshGroup.peek(), openingOf(example));
 }
 
 /** The first example, as what was there from the beginning. */
 export function beginWithExample(): void {
-  const { title, shape, view: direction } = kExamples[0];
-  put({ ...meshGroup.peek(), name: title, items: [newItem(meshKind, shape())] });
-  requestFrame(direction, true);
+  beginWith(meshGroup.peek(), openingOf(kExamples[0]));
 }
 

@@ -1,16 +1,17 @@
 // What the mode draws besides meshes: patches, and the rims of holes.
-import { computed, effect } from '@preact/signals';
+import { computed } from '@preact/signals';
 import { Color } from 'three';
 import { FatLines } from '../../scene/fat_line.ts';
 import type { ModeScene } from '../../scene/mode_scene.ts';
-import { allToScene, toScene, type Placement } from '../../scene/placement.ts';
+import { allToScene, type Placement } from '../../scene/placement.ts';
 import type { Stage } from '../../scene/stage.ts';
-import { patches, withPatches, type Patch } from './filling.ts';
+import { colorsOf, joined, picked } from './attributes.ts';
+import { patches, type Patch } from './filling.ts';
 import type { Hole } from './grouping.ts';
 import { chosenHoles, found, holes, hoveredHole } from './holes.ts';
 import { LitSurface, type SceneTriangles } from './lit_surface.ts';
 import { looksFor, rimColor, view } from './looks.ts';
-import { vertexAt, type Found, type Whole } from './whole.ts';
+import type { Found, Whole } from './whole.ts';
 
 /** In CSS pixels. */
 const kRim = 2.2;
@@ -22,21 +23,15 @@ export function drawHoles(stage: Stage, { root, placement }: ModeScene): void {
   const { theme } = stage;
   const [surface, rims, marked] = [new LitSurface(1, 0.55), new FatLines(), new FatLines()];
   root.add(surface.object, rims.object, marked.object);
-  const follow = (draw: () => void): void => {
-    effect(() => {
-      draw();
-      stage.view.invalidate();
-    });
-  };
-  follow(() => {
+  stage.view.follow(() => {
     const [first] = patches.value;
     surface.set(patches.value.length > 0 ? trianglesOf(first.of, patches.value, placement.value) : null);
   });
-  follow(() => {
+  stage.view.follow(() => {
     surface.setLook(looksFor(theme.value).patches);
   });
   const isDark = computed(() => new Color(theme.value.background).getHSL({ h: 0, s: 0, l: 0 }).l < 0.4);
-  follow(() => {
+  stage.view.follow(() => {
     const now = found.value;
     const { grid } = theme.value;
     rims.clear();
@@ -46,7 +41,7 @@ export function drawHoles(stage: Stage, { root, placement }: ModeScene): void {
     const [ends, tints] = segmentsOf(now, holes.value, placement.value, (h) => (holes.value[h].isOpenRim ? grey : rimColor(h, lightness)));
     rims.put(ends, { width: kRim }, tints);
   });
-  follow(() => {
+  stage.view.follow(() => {
     const now = found.value;
     const { curves } = theme.value;
     marked.clear();
@@ -62,21 +57,22 @@ export function drawHoles(stage: Stage, { root, placement }: ModeScene): void {
   });
 }
 
-/** The rims of holes as segments, and a colour for each. */
-function segmentsOf({ of, report }: Found, all: readonly Hole[], placement: Placement, colorOf: (h: number) => Color): [Float32Array, Float32Array] {
+/** The rims of holes as segments, and a colour for each. Broken scans have a million: no points are made on the way. */
+function segmentsOf({ of, report }: Found, all: readonly Hole[], { center, unit }: Placement, colorOf: (h: number) => Color): [Float32Array, Float32Array] {
   const count = all.reduce((sum, { vertices }) => sum + vertices, 0);
   const [ends, tints] = [new Float32Array(6 * count), new Float32Array(3 * count)];
-  let [to, segment] = [0, 0];
+  let segment = 0;
+  const put = (vertex: number, at: number): void => {
+    for (let axis = 0; axis < 3; axis++) ends[at + axis] = (of.positions[3 * vertex + axis] - center[axis]) / unit;
+  };
   all.forEach((hole, h) => {
     const color = colorOf(h);
     for (const loop of hole.loops) {
       const { vertices } = report.loops[loop];
-      for (let i = 0; i < vertices.length; i++) {
-        color.toArray(tints, 3 * segment++);
-        for (const vertex of [vertices[i], vertices[i + 1 === vertices.length ? 0 : i + 1]]) {
-          ends.set(toScene(placement, vertexAt(of, vertex)), to);
-          to += 3;
-        }
+      for (let i = 0; i < vertices.length; i++, segment++) {
+        color.toArray(tints, 3 * segment);
+        put(vertices[i], 6 * segment);
+        put(vertices[i + 1 === vertices.length ? 0 : i + 1], 6 * segment + 3);
       }
     }
   });
@@ -85,28 +81,36 @@ function segmentsOf({ of, report }: Found, all: readonly Hole[], placement: Plac
 
 /** The triangles of all patches, with only the vertices that they have; those that intersect something are marked. */
 function trianglesOf(of: Whole, all: readonly Patch[], placement: Placement): SceneTriangles {
-  const { positions, faces } = withPatches(of, all);
-  const first = of.faces.length;
+  const n = of.positions.length / 3;
   const crossed = [...new Set(all.flatMap((patch) => patch.crossed))];
-  const corners = new Uint32Array(faces.length - first + 3 * crossed.length);
-  corners.set(faces.subarray(first));
-  crossed.forEach((face, i) => {
-    corners.set(faces.subarray(3 * face, 3 * face + 3), faces.length - first + 3 * i);
-  });
+  const sum = (key: 'positions' | 'faces') => all.reduce((length, patch) => length + patch[key].length, 0);
+  const fresh = sum('positions') / 3;
+  // Those of the patches come first, then those of the mesh as they are met.
+  const old = new Map<number, number>();
+  const numberOf = (vertex: number): number => {
+    const number = old.get(vertex) ?? fresh + old.size;
+    old.set(vertex, number);
+    return number;
+  };
+  const faces = new Uint32Array(sum('faces') + 3 * crossed.length);
   const marked = new Set<number>();
-  let at = 0;
+  let [to, first] = [0, 0];
   for (const patch of all) {
-    for (const face of patch.crossing) marked.add(at + face);
-    at += patch.faces.length / 3;
+    for (const face of patch.crossing) marked.add(to / 3 + face);
+    for (const vertex of patch.faces) faces[to++] = vertex < n ? numberOf(vertex) : vertex - n + first;
+    first += patch.positions.length / 3;
   }
-  for (let i = 0; i < crossed.length; i++) marked.add(at + i);
-  const numbers = new Map<number, number>();
-  for (let i = 0; i < corners.length; i++) {
-    const number = numbers.get(corners[i]) ?? numbers.size;
-    numbers.set(corners[i], number);
-    corners[i] = number;
+  for (const face of crossed) {
+    marked.add(to / 3);
+    for (let corner = 0; corner < 3; corner++) faces[to++] = numberOf(of.faces[3 * face + corner]);
   }
-  const own = new Float32Array(3 * numbers.size);
-  for (const [vertex, number] of numbers) own.set(positions.subarray(3 * vertex, 3 * vertex + 3), 3 * number);
-  return { positions: allToScene(placement, own), faces: corners, marked };
+  const positions = new Float32Array(3 * (fresh + old.size));
+  first = 0;
+  for (const patch of all) {
+    positions.set(patch.positions, first);
+    first += patch.positions.length;
+  }
+  for (const [vertex, number] of old) positions.set(of.positions.subarray(3 * vertex, 3 * vertex + 3), 3 * number);
+  const colors = colorsOf(joined([...all, picked(of.attributes, [...old.keys()])]));
+  return { positions: allToScene(placement, positions), faces, colors, marked };
 }

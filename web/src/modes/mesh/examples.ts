@@ -9,6 +9,9 @@ export interface Example {
   readonly shape: () => MeshShape;
 }
 
+/** A point, or a colour, for two parameters from 0 to 1. */
+type OfParameters = (s: number, t: number) => Point;
+
 /** Says whether the surface is missing at a point. */
 type Cut = (p: Point) => boolean;
 
@@ -27,10 +30,10 @@ function hole(at: Point, radius: number, wave: number, ...islands: readonly (rea
 }
 
 /** A grid of points over parameters, closed along the first and, where said so, along the second; what is cut is missing. */
-function grid(rows: number, columns: number, isClosed: boolean, at: (s: number, t: number) => Point, cuts: readonly Cut[]): MeshShape {
+function grid(rows: number, columns: number, isClosed: boolean, at: OfParameters, cuts: readonly Cut[], paint?: OfParameters): MeshShape {
   const last = isClosed ? columns : columns - 1;
-  const points: Point[] = [];
-  for (let i = 0; i < rows; i++) for (let j = 0; j < columns; j++) points.push(at(i / rows, j / last));
+  const over = (of: OfParameters) => Array.from({ length: rows * columns }, (_, v) => of(Math.floor(v / columns) / rows, (v % columns) / last));
+  const points = over(at);
   const kept: number[] = [];
   for (let i = 0; i < rows; i++) {
     for (let j = 0; j < last; j++) {
@@ -48,7 +51,8 @@ function grid(rows: number, columns: number, isClosed: boolean, at: (s: number, 
     numbers.set(vertex, number);
     return number;
   });
-  return { positions: new Float32Array([...numbers.keys()].flatMap((vertex) => points[vertex])), faces };
+  const own = (of: readonly Point[]) => new Float32Array([...numbers.keys()].flatMap((vertex) => of[vertex]));
+  return { positions: own(points), faces, ...(paint && { attributes: { color: { data: own(over(paint)), size: 3 } } }) };
 }
 
 /** A point of a bumpy torus. */
@@ -63,6 +67,29 @@ function onPot(s: number, t: number): Point {
   const u = 2 * Math.PI * s;
   const r = (0.55 + 0.35 * Math.sin(2.6 * t + 0.35)) * (1 + 0.025 * Math.cos(8 * u));
   return [r * Math.cos(u), r * Math.sin(u), 1.7 * t - 0.85];
+}
+
+/** A point of a tube around a trefoil knot. */
+function onKnot(s: number, t: number): Point {
+  const [u, v] = [2 * Math.PI * s, 2 * Math.PI * t];
+  const out = 2 + Math.cos(3 * u);
+  const along: Point = [
+    -3 * Math.sin(3 * u) * Math.cos(2 * u) - 2 * out * Math.sin(2 * u),
+    -3 * Math.sin(3 * u) * Math.sin(2 * u) + 2 * out * Math.cos(2 * u),
+    3 * Math.cos(3 * u),
+  ];
+  const aside = normalize(cross(along, [0, 0, 1]));
+  const up = normalize(cross(aside, along));
+  const r = 0.55 * (1 + 0.06 * Math.sin(12 * u + v));
+  return add([out * Math.cos(2 * u), out * Math.sin(2 * u), Math.sin(3 * u)], add(scale(aside, r * Math.cos(v)), scale(up, r * Math.sin(v))));
+}
+
+/** The colours of a rainbow along the tube, between pale stripes that wind round it. */
+function rainbow(s: number, t: number): Point {
+  const [u, v] = [2 * Math.PI * s, 2 * Math.PI * t];
+  const pale = 0.5 + 0.5 * Math.tanh(4 * (Math.cos(9 * u + v) - 0.7));
+  const [r, g, b] = [0, 1, 2].map((k) => 0.5 + 0.45 * Math.cos(u - (2 * Math.PI * k) / 3) * (1 - pale) + 0.4 * pale);
+  return [r, g, b];
 }
 
 export const kExamples: readonly Example[] = [
@@ -91,5 +118,25 @@ export const kExamples: readonly Example[] = [
         hole(onPot(0.6, 0.22), 0.12, 0.1),
         hole(onPot(0.3, 0.5), 0.35, 0.05),
       ]),
+  },
+  {
+    title: 'Painted knot',
+    view: [0.4, -1.1, 2],
+    shape: () =>
+      grid(
+        260,
+        36,
+        true,
+        onKnot,
+        [
+          hole(onKnot(0.02, 0.2), 0.55, 0.1, [0.1, 0, 0.35]),
+          hole(onKnot(0.2, 0.3), 0.45, 0.12),
+          hole(onKnot(0.42, 0.22), 0.4, 0.1),
+          hole(onKnot(0.58, 0.28), 0.5, 0.1),
+          hole(onKnot(0.77, 0.2), 0.5, 0.08, [-0.2, 0.1, 0.3]),
+          hole(onKnot(0.9, 0.95), 0.35, 0.15),
+        ],
+        rainbow,
+      ),
   },
 ];

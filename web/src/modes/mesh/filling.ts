@@ -1,13 +1,15 @@
 // Filling the holes that are to be filled, in the worker. Patches are kept: only those that are missing, or were made in
 // another way, are computed.
 import { computed, signal } from '@preact/signals';
-import type { FilledHole, FillOptions, FillResult, HoleReport } from 'soapfilm';
+import type { FilledHole, FillResult, HoleFillOptions, SplitFace } from 'soapfilm';
 import { add, subtract, type Box } from '../../shapes/vec.ts';
-import { createWork, plainFailure } from '../../state/work.ts';
+import { createWork } from '../../state/work.ts';
 import { found, holes, settings, wishFor } from './holes.ts';
+import { joined, picked, type Attributes } from './attributes.ts';
 import type { Hole } from './grouping.ts';
-import { kMode, type MeshSettings, type Smoothness } from './settings.ts';
-import { boxOfLoops, type Whole } from './whole.ts';
+import { kMode, type MeshSettings, type MeshShape, type Smoothness } from './settings.ts';
+import { boxOfLoops, type Found, type Whole } from './whole.ts';
+import { explain } from './wording.ts';
 
 /** What became of one hole. */
 export interface Patch {
@@ -15,27 +17,39 @@ export interface Patch {
   /** How it was made. */
   readonly manner: string;
   readonly result: FilledHole;
-  /** `[3m]` vertices of the whole mesh, and from its number of vertices on those of this patch. */
+  /**
+   * `[3m]` vertices of the whole mesh, and from its number of vertices on those of this patch. At the end the further
+   * pieces of faces that had to be split for it.
+   */
   readonly faces: Uint32Array;
+  /** Faces that had to be split: each is its first piece now. */
+  readonly split: readonly Pick<SplitFace, 'face' | 'corners'>[];
   /** `[3n]` the patch's own vertices. */
   readonly positions: Float32Array;
+  /** Of its own vertices: those that the mesh has. */
+  readonly attributes?: Attributes;
   /** Numbers of its faces that intersect something, and of the mesh's that it intersects. */
   readonly crossing: readonly number[];
   readonly crossed: readonly number[];
 }
 
-interface Job {
-  readonly of: Whole;
-  readonly report: HoleReport;
+interface Job extends Found {
   readonly holes: readonly Hole[];
   readonly manner: string;
-  readonly options: FillOptions;
+  readonly options: HoleFillOptions;
 }
 
-const kFairness: Record<Smoothness, NonNullable<FillOptions['fairness']>> = { none: 0, direction: 1, curvature: 2, auto: 'auto' };
+const kFairness: Record<Smoothness, NonNullable<HoleFillOptions['fairness']>> = { none: 0, direction: 1, curvature: 2, auto: 'auto' };
 
 const keyOf = ({ loops }: Hole): string => loops.join(' ');
-const mannerOf = ({ smoothness, density, candidates }: MeshSettings): string => `${smoothness} ${density} ${candidates}`;
+const optionsOf = ({ smoothness, density, candidates, creases, creaseAngle }: MeshSettings): HoleFillOptions => ({
+  fairness: kFairness[smoothness],
+  density,
+  candidates,
+  creases: creases && creaseAngle,
+});
+/** The same for settings that make the same patches. */
+const mannerOf = (of: MeshSettings): string => JSON.stringify(optionsOf(of));
 
 const kept = signal<ReadonlyMap<string, Patch>>(new Map());
 
@@ -47,8 +61,7 @@ const jobKey = computed(() => [mannerOf(settings.value), ...wanted.value.map(key
 const job = computed<Job | null>(() => {
   const now = found.value;
   if (now === null || jobKey.value.indexOf('\n') < 0) return null;
-  const { smoothness, density, candidates } = settings.peek();
-  return { ...now, holes: wanted.peek(), manner: mannerOf(settings.peek()), options: { fairness: kFairness[smoothness], density, candidates } };
+  return { ...now, holes: wanted.peek(), manner: mannerOf(settings.peek()), options: optionsOf(settings.peek()) };
 });
 
 /** The patch of a hole, if it is to have one and has: perhaps one that was made in another way. */
@@ -71,21 +84,18 @@ export const filling = createWork<Job, ReadonlyMap<string, Patch>>({
   verb: 'Filling',
   input: job,
   part: 'meshes',
-  async compute(film, of, watch) {
+  async compute(_, of, watch) {
     const todo = missing(of);
     if (todo.length === 0) return new Map();
-    const result = await film.fillHoles(
-      { positions: of.of.positions, faces: of.of.faces },
-      {
-        ...of.options,
-        groups: todo.map(({ loops }) => loops),
-        // By name, so that open rims are filled too.
-        holes: todo.map((_, i) => i),
-        output: 'patches',
-        signal: watch.signal,
-        onProgress: (fraction) => { watch.progress(fraction); },
-      },
-    );
+    const result = await of.session.fillHoles({
+      ...of.options,
+      groups: todo.map(({ loops }) => loops),
+      // By name, so that open rims are filled too.
+      holes: todo.map((_, i) => i),
+      output: 'patches',
+      signal: watch.signal,
+      onProgress: (fraction) => { watch.progress(fraction); },
+    });
     return new Map(patchesIn(result, of).map((patch) => [keyOf(todo[patch.result.group]), patch]));
   },
   show: (made, of) => {
@@ -93,7 +103,7 @@ export const filling = createWork<Job, ReadonlyMap<string, Patch>>({
     const others = [...kept.peek()].filter(([, patch]) => patch.of === of.of);
     kept.value = new Map([...others, ...made]);
   },
-  explain: plainFailure,
+  explain,
 });
 
 /** The holes whose patches are missing, and those so near to them that the patches may meet. */
@@ -106,7 +116,11 @@ function missing({ of, report, holes: all, manner }: Job): Hole[] {
   if (todo.length === 0 || todo.length === all.length) return todo;
   const reachOf = ({ loops }: Hole): Box => grown(boxOfLoops({ of, report }, loops));
   const boxes = todo.map(reachOf);
-  return all.filter((hole) => !isMade(hole) || boxes.some((box) => doMeet(box, reachOf(hole))));
+  return all.filter((hole) => {
+    if (!isMade(hole)) return true;
+    const own = reachOf(hole);
+    return boxes.some((box) => doMeet(box, own));
+  });
 }
 
 /** A box and half as much again all round, for what bulges. */
@@ -118,7 +132,9 @@ function grown({ low, high }: Box): Box {
 const doMeet = (a: Box, b: Box): boolean => a.low.every((x, axis) => x <= b.high[axis] && b.low[axis] <= a.high[axis]);
 
 /** The patches in a result of only patches, each with its own vertices. */
-function patchesIn({ mesh, oldVertices, oldFaces, holes: results }: FillResult, { of, manner }: Job): Patch[] {
+function patchesIn(result: FillResult, { of: whole, manner }: Job): Patch[] {
+  const { mesh, oldVertices, oldFaces, holes: results, splitFaces } = result;
+  const cornersOf = (from: number, to: number): Uint32Array => mesh.faces.subarray(3 * (from - oldFaces), 3 * (to - oldFaces));
   const single = mesh.positions instanceof Float32Array ? mesh.positions : Float32Array.from(mesh.positions);
   const owners = results.map(({ faces }) => faces);
   const crossing = results.map((): Set<number> => new Set());
@@ -131,23 +147,26 @@ function patchesIn({ mesh, oldVertices, oldFaces, holes: results }: FillResult, 
     }
   });
   return results.map((result, h) => {
-    const [from, to] = result.faces;
-    const faces = mesh.faces.slice(3 * (from - oldFaces), 3 * (to - oldFaces));
+    const made = cornersOf(...result.faces);
     const own = new Map<number, number>();
-    for (let i = 0; i < faces.length; i++) {
-      if (faces[i] < oldVertices) continue;
-      const number = own.get(faces[i]) ?? own.size;
-      own.set(faces[i], number);
-      faces[i] = oldVertices + number;
-    }
+    const renumbered = (vertex: number): number => {
+      if (vertex < oldVertices) return vertex;
+      const number = own.get(vertex) ?? own.size;
+      own.set(vertex, number);
+      return oldVertices + number;
+    };
+    const splitHere = splitFaces.filter(({ corners }) => corners.some((vertex) => vertex >= oldVertices && made.includes(vertex)));
+    const faces = Uint32Array.from([made, ...splitHere.map(({ first, count }) => cornersOf(first, first + count))].flatMap((part) => [...part]), renumbered);
+    const split = splitHere.map(({ face, corners }) => ({ face, corners: corners.map(renumbered) }));
     const positions = new Float32Array(3 * own.size);
     for (const [vertex, number] of own) positions.set(single.subarray(3 * (vertex - oldVertices), 3 * (vertex - oldVertices) + 3), 3 * number);
-    return { of, manner, result, faces, positions, crossing: [...crossing[h]], crossed: [...crossed[h]] };
+    const attributes = picked(mesh.attributes, Array.from(own.keys(), (vertex) => vertex - oldVertices));
+    return { of: whole, manner, result, faces, split, positions, ...attributes, crossing: [...crossing[h]], crossed: [...crossed[h]] };
   });
 }
 
 /** The mesh with patches, old vertices and faces first and as they were. */
-export function withPatches({ positions, faces }: Whole, all: readonly Patch[]): { positions: Float32Array; faces: Uint32Array } {
+export function withPatches({ positions, faces, attributes }: Whole, all: readonly Patch[]): MeshShape {
   const n = positions.length / 3;
   const more = (key: 'positions' | 'faces') => all.reduce((sum, patch) => sum + patch[key].length, 0);
   const points = new Float32Array(positions.length + more('positions'));
@@ -157,8 +176,10 @@ export function withPatches({ positions, faces }: Whole, all: readonly Patch[]):
   let [first, to] = [n, faces.length];
   for (const patch of all) {
     points.set(patch.positions, 3 * first);
-    for (const vertex of patch.faces) corners[to++] = vertex < n ? vertex : vertex - n + first;
+    const placed = (vertex: number): number => (vertex < n ? vertex : vertex - n + first);
+    for (const { face, corners: piece } of patch.split) corners.set(piece.map(placed), 3 * face);
+    for (const vertex of patch.faces) corners[to++] = placed(vertex);
     first += patch.positions.length / 3;
   }
-  return { positions: points, faces: corners };
+  return { positions: points, faces: corners, ...(attributes && joined([{ attributes }, ...all])) };
 }

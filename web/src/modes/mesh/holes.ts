@@ -1,13 +1,14 @@
 // Finding the holes of the meshes, in the worker, and what has been decided about them.
 import { computed, signal } from '@preact/signals';
-import type { HoleReport } from 'soapfilm';
+import type { MeshSessionHandle } from 'soapfilm/worker';
 import { isSame } from '../../state/document.ts';
-import { choose, dispatch, endGesture, hover, mode, selection } from '../../state/store.ts';
-import { createWork, plainFailure } from '../../state/work.ts';
+import { choose, dispatch, hover, mode, selection, setIn } from '../../state/store.ts';
+import { createWork } from '../../state/work.ts';
 import { holesOf, join, split, type Hole } from './grouping.ts';
 import { kMode, kNoChoices, meshGroup, type Choices, type MeshSettings } from './settings.ts';
 import { countTwins, weld } from './weld.ts';
-import { idsOf, loopAt, noteRims, placeOf, shapeOf, wholeOf, type Found, type Whole } from './whole.ts';
+import { idsOf, loopAt, meshIn, noteRims, placeOf, shapeOf, wholeOf, type Found, type Whole } from './whole.ts';
+import { explain } from './wording.ts';
 
 const items = computed(() => meshGroup.value.items);
 
@@ -19,18 +20,32 @@ const latest = signal<Found | null>(null);
 /** What was found in the meshes as they are. */
 export const found = computed(() => (latest.value !== null && latest.value.of === whole.value ? latest.value : null));
 
-export const finding = createWork<Whole, HoleReport>({
+export const finding = createWork<Whole, MeshSessionHandle>({
   mode: kMode,
   verb: 'Looking for holes',
   input: whole,
   part: 'meshes',
-  compute: (film, of, { signal: ends }) => film.findHoles({ positions: of.positions, faces: of.faces }, { signal: ends }),
-  show: (report, of) => {
-    if (report && of) noteRims(of, report);
-    latest.value = report && of && { of, report };
+  begin: forget,
+  async compute(film, of, { signal: ends }) {
+    const session = await film.createMeshSession(meshIn(of), { signal: ends });
+    if (ends.aborted) session.dispose();
+    return session;
   },
-  explain: plainFailure,
+  show: (session, of) => {
+    forget();
+    if (session === null || of === null) return;
+    const { report } = session;
+    noteRims(of, report);
+    latest.value = { of, report, session };
+  },
+  explain,
 });
+
+/** A mesh that is gone stays open no longer. */
+function forget(): void {
+  latest.peek()?.session.dispose();
+  latest.value = null;
+}
 
 /** How many vertices of rims lie where another one does: seams rather than holes. */
 export const twins = computed(() => {
@@ -99,8 +114,7 @@ export function hoverHole(hole: number | null): void {
 
 /** Changes settings; those of one `gesture` are one step until the change that is not `passing`. */
 export function set(change: Partial<MeshSettings>, gesture?: string, passing = false): void {
-  dispatch({ type: 'set', group: meshGroup.peek().id, settings: change }, gesture);
-  if (gesture !== undefined && !passing) endGesture();
+  setIn(meshGroup.peek(), change, gesture, passing);
 }
 
 function decide(change: Partial<Choices>, rest: Partial<MeshSettings> = {}): void {
@@ -114,13 +128,13 @@ const minus = (list: readonly number[], less: readonly number[]): number[] => {
   return list.filter((x) => !gone.has(x));
 };
 
-export function fill(...of: readonly Hole[]): void {
+export function fill(of: readonly Hole[]): void {
   const loops = of.flatMap((hole) => hole.loops);
   const { filled, left } = choices.peek();
   decide({ filled: plus(filled, loops), left: minus(left, loops) });
 }
 
-export function leave(...of: readonly Hole[]): void {
+export function leave(of: readonly Hole[]): void {
   const loops = of.flatMap((hole) => hole.loops);
   const { filled, left } = choices.peek();
   decide({ filled: minus(filled, loops), left: plus(left, loops) });
@@ -132,7 +146,7 @@ const isMeant = (hole: Hole, openRims: boolean): boolean => wishFor(hole) !== 'l
 /** Whether filling all would fill any more. */
 export const isAnyLeft = computed(() => holes.value.some((hole) => isMeant(hole, settings.value.openRims) && wishFor(hole) !== 'fill'));
 
-export const fillAll = (): void => { fill(...holes.peek().filter((hole) => isMeant(hole, settings.peek().openRims))); };
+export const fillAll = (): void => { fill(holes.peek().filter((hole) => isMeant(hole, settings.peek().openRims))); };
 
 /** All holes are as if nothing had been said about filling them. */
 export const openAll = (): void => { decide({ filled: [], left: [] }); };

@@ -1,28 +1,43 @@
 // Triangles of meshes and patches as they are drawn: lit on both sides, smooth or flat, with their edges, and with
 // stripes as of a zebra's hide, which break where the surface has a kink.
-import { BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, ShaderMaterial, Sphere } from 'three';
+import { BufferAttribute, BufferGeometry, Mesh, Sphere, type Color, type ShaderMaterial } from 'three';
+import { colorUniforms, kCorner, kLight, kWire, setColors, surfaceMaterial } from '../../scene/glsl.ts';
+import type { Attribute } from './attributes.ts';
 
 /** More triangles than this are drawn without edges, which would need thrice the vertices. */
 const kMostWired = 400_000;
 
-const kVertexShader = /* glsl */ `
-attribute float mark;
+const kVaryings = /* glsl */ `
+#ifdef TINTED
+varying vec3 vTint;
+#endif
 varying vec3 vNormal;
 varying vec3 vEye;
 varying vec3 vCorner;
-varying float vMark;
+varying float vMark;`;
+
+const kVertexShader = /* glsl */ `
+${kCorner}
+attribute float mark;
+#ifdef TINTED
+attribute vec3 tint;
+#endif
+${kVaryings}
 void main() {
-  int corner = gl_VertexID % 3;
-  vCorner = vec3(float(corner == 0), float(corner == 1), float(corner == 2));
+  vCorner = cornerOf(gl_VertexID);
   vec4 eye = modelViewMatrix * vec4(position, 1.0);
   vNormal = normalMatrix * normal;
   vEye = -eye.xyz;
   vMark = mark;
+  #ifdef TINTED
+  vTint = tint;
+  #endif
   gl_Position = projectionMatrix * eye;
 }`;
 
-// Light comes from over the viewer's left shoulder and from the sky, as on films.
 const kFragmentShader = /* glsl */ `
+${kLight}
+${kWire}
 uniform vec3 uFront;
 uniform vec3 uBack;
 uniform vec3 uMark;
@@ -30,31 +45,25 @@ uniform vec3 uWire;
 uniform float uWireOpacity;
 uniform float uSmooth;
 uniform float uZebra;
-varying vec3 vNormal;
-varying vec3 vEye;
-varying vec3 vCorner;
-varying float vMark;
+${kVaryings}
 void main() {
   vec3 toEye = normalize(vEye);
   vec3 flatNormal = normalize(cross(dFdx(vEye), dFdy(vEye)));
   bool front = gl_FrontFacing;
   vec3 n = uSmooth > 0.5 && dot(vNormal, vNormal) > 0.0 ? normalize(vNormal) * (front ? 1.0 : -1.0) : flatNormal;
   if (dot(flatNormal, toEye) < 0.0 && uSmooth < 0.5) n = -n;
-  float key = clamp(dot(n, normalize(vec3(-0.45, 0.65, 0.7))), 0.0, 1.0);
-  float fill = clamp(dot(n, normalize(vec3(0.8, -0.1, 0.45))), 0.0, 1.0);
-  vec3 base = mix(front ? uFront : uBack, uMark, vMark);
-  vec3 color = base * (0.42 + 0.56 * key + 0.16 * fill);
-  vec3 h = normalize(normalize(vec3(-0.45, 0.65, 0.7)) + toEye);
-  color += 0.06 * pow(clamp(dot(n, h), 0.0, 1.0), 32.0);
+  vec3 plain = front ? uFront : uBack;
+  #ifdef TINTED
+  plain = vTint;
+  #endif
+  vec3 base = mix(plain, uMark, vMark);
+  vec3 color = base * lightOn(n, vec3(0.42, 0.56, 0.16));
+  color += 0.06 * glossOn(n, toEye);
   float along = 9.0 * reflect(-toEye, n).y;
   float width = fwidth(along) + 1e-4;
   float stripe = smoothstep(-width, width, abs(fract(along) - 0.5) - 0.25);
   color *= 1.0 - uZebra * 0.72 * stripe;
-  vec3 perPixel = fwidth(vCorner);
-  vec3 inside = smoothstep(perPixel * -0.125, perPixel * 0.875, vCorner);
-  // Edges of triangles that are lower than a few pixels fade, else they would cover everything.
-  vec3 strength = (1.0 - inside) * (1.0 - smoothstep(0.12, 0.6, perPixel));
-  color = mix(color, uWire, uWireOpacity * max(max(strength.x, strength.y), strength.z));
+  color = mix(color, uWire, uWireOpacity * wireAt(vCorner, 0.12, 0.6));
   gl_FragColor = vec4(color, 1.0);
   #include <colorspace_fragment>
 }`;
@@ -66,6 +75,8 @@ export interface SurfaceLook {
   readonly wire: Color;
   readonly wires: boolean;
   readonly smooth: boolean;
+  /** Whether colours of vertices are shown, where there are any. */
+  readonly colored: boolean;
   /** 0 to 1. */
   readonly zebra: number;
 }
@@ -76,6 +87,8 @@ export interface SceneTriangles {
   readonly positions: Float32Array;
   /** `[3m]` */
   readonly faces: Uint32Array;
+  /** Of the vertices. */
+  readonly colors: Attribute | null;
   /** Numbers of triangles in the colour of marks. */
   readonly marked?: ReadonlySet<number>;
 }
@@ -85,29 +98,18 @@ export class LitSurface {
   private shown: SceneTriangles | null = null;
   private normals: Float32Array | null = null;
   private isSpread = false;
+  private isColored = false;
 
   /** @param order surfaces of a higher one lie before others at the same place */
   constructor(
     order: number,
     private readonly wireOpacity: number,
   ) {
-    const material = new ShaderMaterial({
-      vertexShader: kVertexShader,
-      fragmentShader: kFragmentShader,
-      side: DoubleSide,
-      // Pushed back, so that rims lie on it unbroken.
-      polygonOffset: true,
-      polygonOffsetFactor: 1,
-      polygonOffsetUnits: 2 - order,
-      uniforms: {
-        uFront: { value: new Color() },
-        uBack: { value: new Color() },
-        uMark: { value: new Color() },
-        uWire: { value: new Color() },
-        uWireOpacity: { value: 0 },
-        uSmooth: { value: 1 },
-        uZebra: { value: 0 },
-      },
+    const material = surfaceMaterial(kVertexShader, kFragmentShader, 2 - order, {
+      ...colorUniforms('uFront', 'uBack', 'uMark', 'uWire'),
+      uWireOpacity: { value: 0 },
+      uSmooth: { value: 1 },
+      uZebra: { value: 0 },
     });
     this.object = new Mesh(new BufferGeometry(), material);
     this.object.frustumCulled = false;
@@ -123,14 +125,12 @@ export class LitSurface {
 
   setLook(look: SurfaceLook): void {
     const { uniforms } = this.object.material;
-    (uniforms.uFront.value as Color).copy(look.front);
-    (uniforms.uBack.value as Color).copy(look.back);
-    (uniforms.uMark.value as Color).copy(look.mark);
-    (uniforms.uWire.value as Color).copy(look.wire);
+    setColors(this.object.material, { uFront: look.front, uBack: look.back, uMark: look.mark, uWire: look.wire });
     uniforms.uSmooth.value = look.smooth ? 1 : 0;
     uniforms.uZebra.value = look.zebra;
-    if (this.isSpread === look.wires) return;
+    if (this.isSpread === look.wires && this.isColored === look.colored) return;
     this.isSpread = look.wires;
+    this.isColored = look.colored;
     this.build();
   }
 
@@ -143,24 +143,37 @@ export class LitSurface {
     object.geometry = geometry;
     object.visible = shown !== null && shown.faces.length > 0;
     if (shown === null) return;
-    const { positions, faces, marked } = shown;
+    const { positions, faces, marked, colors } = shown;
+    const isTinted = colors !== null && this.isColored;
+    if (isTinted !== 'TINTED' in object.material.defines) {
+      object.material.defines = isTinted ? { TINTED: '' } : {};
+      object.material.needsUpdate = true;
+    }
     const isWired = this.isSpread && faces.length <= 3 * kMostWired;
     object.material.uniforms.uWireOpacity.value = isWired ? this.wireOpacity : 0;
     const normals = (this.normals ??= normalsOf(positions, faces));
+    const put = isWired || marked ? (values: Float32Array) => spread(values, faces) : (values: Float32Array) => values;
+    geometry.setAttribute('position', new BufferAttribute(put(positions), 3));
+    geometry.setAttribute('normal', new BufferAttribute(put(normals), 3));
+    if (isTinted) geometry.setAttribute('tint', new BufferAttribute(put(tintsOf(colors)), 3));
     if (isWired || marked) {
-      geometry.setAttribute('position', new BufferAttribute(spread(positions, faces), 3));
-      geometry.setAttribute('normal', new BufferAttribute(spread(normals, faces), 3));
       if (marked && marked.size > 0) {
         const mark = new Float32Array(faces.length);
         for (const face of marked) mark.fill(1, 3 * face, 3 * face + 3);
         geometry.setAttribute('mark', new BufferAttribute(mark, 1));
       }
-    } else {
-      geometry.setAttribute('position', new BufferAttribute(positions, 3));
-      geometry.setAttribute('normal', new BufferAttribute(normals, 3));
-      geometry.setIndex(new BufferAttribute(faces, 1));
-    }
+    } else geometry.setIndex(new BufferAttribute(faces, 1));
   }
+}
+
+/** Colours as the scene reckons with them: in proportion to light. */
+function tintsOf({ data, size }: Attribute): Float32Array {
+  const tints = new Float32Array((3 * data.length) / size);
+  for (let i = 0; i < tints.length; i++) {
+    const value = Math.min(1, Math.max(0, data[size * ((i / 3) | 0) + (i % 3)]));
+    tints[i] = value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
+  }
+  return tints;
 }
 
 /** Of each corner what its vertex has. */

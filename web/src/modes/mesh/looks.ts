@@ -9,19 +9,21 @@ export interface View {
   readonly rims: boolean;
   readonly zebra: boolean;
   readonly smooth: boolean;
+  readonly colored: boolean;
 }
 
 /** What is shown besides what all modes can show. */
-export const view = signal<View>({ rims: true, zebra: false, smooth: true });
+export const view = signal<View>({ rims: true, zebra: false, smooth: true, colored: true });
 
 /** The mesh is pale, so that patches, in the colours of films, stand out. */
 export function looksFor({ surface, curves }: Theme): { readonly mesh: SurfaceLook; readonly patches: SurfaceLook } {
-  const { zebra, smooth } = view.value;
+  const { zebra, smooth, colored } = view.value;
   const common = {
     mark: new Color(curves.fault),
     wire: new Color(surface.wire),
     wires: shown.value.wires,
     smooth,
+    colored,
     zebra: zebra ? 1 : 0,
   };
   return {

@@ -5,6 +5,7 @@ import { distanceOf, shareAlong, type Eye, type Projected, type Spot } from '../
 import { allToScene, type Placement } from '../../scene/placement.ts';
 import { add, boxOfPoints, scale, subtract, type Point } from '../../shapes/vec.ts';
 import type { Item } from '../../state/document.ts';
+import { colorsOf, readAttributes } from './attributes.ts';
 import { LitSurface } from './lit_surface.ts';
 import { looksFor } from './looks.ts';
 import { kMesh, type MeshShape } from './settings.ts';
@@ -24,10 +25,12 @@ export const meshKind: DrawnKind<MeshShape> = {
 };
 
 function readShape(saved: unknown): MeshShape | null {
-  const { positions, faces } = (saved ?? {}) as Partial<Record<keyof MeshShape, unknown>>;
+  const { positions, faces, attributes } = (saved ?? {}) as Partial<Record<keyof MeshShape, unknown>>;
   if (!(positions instanceof Float32Array) || !(faces instanceof Uint32Array)) return null;
   const isWhole = positions.length % 3 === 0 && faces.length % 3 === 0 && positions.every(Number.isFinite);
-  return isWhole && faces.every((vertex) => 3 * vertex < positions.length) ? { positions, faces } : null;
+  if (!isWhole || !faces.every((vertex) => 3 * vertex < positions.length)) return null;
+  const sound = readAttributes(attributes, positions.length / 3);
+  return { positions, faces, ...(sound && { attributes: sound }) };
 }
 
 /** The rim nearest to a place. Of rims alike near, the one that is nearer to the eye. */
@@ -84,8 +87,8 @@ class MeshLayer implements Layer {
   }
 }
 
-function surfaceOf({ positions, faces }: MeshShape, placement: Placement): LitSurface {
+function surfaceOf(shape: MeshShape, placement: Placement): LitSurface {
   const made = new LitSurface(0, 0.25);
-  made.set({ positions: allToScene(placement, positions), faces });
+  made.set({ positions: allToScene(placement, shape.positions), faces: shape.faces, colors: colorsOf(shape) });
   return made;
 }

@@ -2,9 +2,6 @@
 import type { Content } from '../../app/content.ts';
 import type { Mode } from '../../app/mode.ts';
 
-/** Whether the first bytes are those of the letters. */
-const hasMark = ({ bytes }: Content, mark: string): boolean => Array.from(mark).every((letter, i) => bytes[i] === letter.charCodeAt(0));
-
 /** 80 bytes of any kind, the number of triangles, and 50 bytes for each. */
 function isBinaryStl({ bytes }: Content): boolean {
   if (bytes.length < 84) return false;
@@ -16,7 +13,7 @@ export const mesh: Mode = {
   label: 'Mesh',
   title: 'Holes of scanned meshes, filled',
   files: [
-    { id: 'ply', what: 'a PLY file', label: 'PLY', extensions: ['.ply'], isIt: (content) => hasMark(content, 'ply\n') || hasMark(content, 'ply\r') },
+    { id: 'ply', what: 'a PLY file', label: 'PLY', extensions: ['.ply'], isIt: (content) => content.hasMark('ply\n') || content.hasMark('ply\r') },
     {
       id: 'stl',
       what: 'an STL file',
@@ -24,7 +21,7 @@ export const mesh: Mode = {
       extensions: ['.stl'],
       isIt: (content) => (content.isText ? /^solid\b[^]*\bfacet\b/.test(content.head) : isBinaryStl(content)),
     },
-    { id: 'glb', what: 'a GLB file', label: 'GLB', extensions: ['.glb'], isIt: (content) => hasMark(content, 'glTF') },
+    { id: 'glb', what: 'a GLB file', label: 'GLB', extensions: ['.glb'], isIt: (content) => content.hasMark('glTF') },
     {
       id: 'obj',
       what: 'an OBJ file of faces',

@@ -1,58 +1,31 @@
 // The panel of the mode: how things stand, the list of holes, how they are filled, what is shown, examples.
-import { useState } from 'preact/hooks';
-import { computed, useComputed } from '@preact/signals';
+import { computed } from '@preact/signals';
 import { linear, NumberField, Section, Segments, Switch, type Choice } from '../../app/controls.tsx';
 import { countOf } from '../../app/files.ts';
-import { boundsOf } from '../../shapes/vec.ts';
-import { boxOfGroup } from '../../state/document.ts';
+import { Examples, Flags, Show, Trouble } from '../../app/panel_parts.tsx';
 import { shown } from '../../state/store.ts';
-import type { Work } from '../../state/work.ts';
-import { chosen, lookAt, openExample } from './actions.ts';
+import { openExample } from './actions.ts';
+import { colorsOf } from './attributes.ts';
 import { kExamples } from './examples.ts';
-import { filling, isSettled, patches, patchOf } from './filling.ts';
-import type { Hole } from './grouping.ts';
-import {
-  chosenHoles,
-  chooseHoles,
-  fill,
-  fillAll,
-  finding,
-  found,
-  holes,
-  hoveredHole,
-  hoverHole,
-  isAnyLeft,
-  joinHoles,
-  leave,
-  openAll,
-  set,
-  setOpenRims,
-  settings,
-  splitHole,
-  twins,
-  weldAll,
-  whole,
-  wishFor,
-} from './holes.ts';
-import { hueOf, view, type View } from './looks.ts';
-import { kMaxDensity, meshGroup, type MeshSettings } from './settings.ts';
-import { isFilled, kindOfHole, reasonIn, wordsFor, wordsForDefect } from './wording.ts';
+import { filling, isSettled, patches } from './filling.ts';
+import { Holes } from './hole_list.tsx';
+import { finding, found, holes, set, settings, twins, weldAll, whole } from './holes.ts';
+import { view } from './looks.ts';
+import { kMaxCrease, kMaxDensity, kMinCrease, type MeshSettings } from './settings.ts';
+import { isFilled, wordsForDefect } from './wording.ts';
 import './mesh.css';
 
-/** More holes than this are listed only when asked for. */
-const kManyHoles = 100;
-
-const diagonal = computed(() => boundsOf(boxOfGroup(meshGroup.value)).diagonal || 1);
+const hasColors = computed(() => whole.value !== null && colorsOf(whole.value) !== null);
 const filledCount = computed(() => patches.value.filter(isFilled).length);
 const triangles = computed(() => patches.value.reduce((sum, { faces }) => sum + faces.length / 3, 0));
 
 export const summary = computed(() => {
   if (whole.value === null) return 'No mesh yet';
-  for (const { state } of [finding, filling]) if (state.value.phase === 'failed') return wordsFor(state.value);
+  for (const { state } of [finding, filling]) if (state.value.phase === 'failed') return state.value.message;
   if (found.value === null) return finding.state.value.phase === 'cancelled' ? 'Cancelled' : 'Looking for holes…';
   const all = holes.value.length;
   if (all === 0) return 'No holes: the mesh is closed';
-  const words = `${filledCount.value} of ${countOf(all, 'hole')} filled`;
+  const words = `${filledCount.value.toLocaleString('en')} of ${countOf(all, 'hole')} filled`;
   return triangles.value > 0 ? `${words}, ${countOf(triangles.value, 'triangle')}` : words;
 });
 
@@ -62,8 +35,11 @@ export function MeshPanel() {
       <Result />
       <Holes />
       <Filling />
-      <Show />
-      <Examples />
+      <Show>
+        <Flags of={view} labels={{ rims: 'Rims', zebra: 'Zebra stripes', smooth: 'Smooth shading', ...(hasColors.value && { colored: 'Colours' }) }} />
+        <Flags of={shown} labels={{ wires: 'Edges', grid: 'Grid' }} />
+      </Show>
+      <Examples of={kExamples} open={openExample} />
     </>
   );
 }
@@ -74,7 +50,7 @@ function Result() {
     <Section title="Result">
       <p class="mesh-summary">{summary.value}</p>
       <Trouble work={finding} />
-      <Trouble work={filling} />
+      {!isSettled.value && <Trouble work={filling} again="Go on" />}
       {whole.value !== null && (
         <p class="muted">
           {countOf(whole.value.positions.length / 3, 'vertex', 'vertices')}, {countOf(whole.value.faces.length / 3, 'face')}
@@ -98,156 +74,6 @@ function Result() {
   );
 }
 
-/** What is wrong with work, or that it was ended, and how to try again. */
-function Trouble({ work }: { work: Work }) {
-  const state = work.state.value;
-  if (state.phase === 'failed') {
-    return (
-      <div class="message error">
-        <p>{wordsFor(state)}</p>
-        <button type="button" class="button small" onClick={work.start}>
-          Try again
-        </button>
-      </div>
-    );
-  }
-  if (state.phase !== 'cancelled' || (work === filling && isSettled.value)) return null;
-  return (
-    <div class="message">
-      <p>{work.verb} was cancelled.</p>
-      <button type="button" class="button small" onClick={work.start}>
-        Go on
-      </button>
-    </div>
-  );
-}
-
-function Holes() {
-  const all = holes.value;
-  const [isAll, setAll] = useState(false);
-  if (all.length === 0) return null;
-  const listed = isAll ? all : all.slice(0, kManyHoles);
-  const hasOpenRims = all.some(({ isOpenRim }) => isOpenRim);
-  return (
-    <Section title="Holes" aside={<span class="count">{all.length}</span>}>
-      <div class="mesh-buttons">
-        <button type="button" class="button primary" disabled={!isAnyLeft.value} onClick={fillAll}>
-          Fill all
-        </button>
-        <button type="button" class="button" disabled={!all.some((hole) => wishFor(hole) !== null)} onClick={openAll}>
-          Open all again
-        </button>
-      </div>
-      {hasOpenRims && (
-        <Switch label="Fill open rims too" title="Rims that are meant to be open, such as a scan’s outer edge" checked={settings.value.openRims} onChange={setOpenRims} />
-      )}
-      <Chosen />
-      <ul class="mesh-holes" onPointerLeave={() => { hoverHole(null); }}>
-        {listed.map((hole, h) => (
-          <HoleRow key={hole.loops[0]} hole={hole} number={h} />
-        ))}
-      </ul>
-      {all.length > listed.length && (
-        <button type="button" class="button wide" onClick={() => { setAll(true); }}>
-          Show all {all.length}
-        </button>
-      )}
-    </Section>
-  );
-}
-
-/** What can be done with the holes that are chosen. */
-function Chosen() {
-  const of = chosen.value;
-  const isFillable = of.some((hole) => wishFor(hole) !== 'fill');
-  const name = of.length === 1 ? `Hole ${chosenHoles.value[0] + 1}` : countOf(of.length, 'hole');
-  return (
-    <div class="mesh-chosen" role="group" aria-label="Chosen holes">
-      {of.length === 0 ? (
-        <p class="muted">Click a rim, or a hole in the list; with Shift more than one.</p>
-      ) : (
-        <>
-          <span class="label">{name}</span>
-          <button type="button" class="button small" disabled={!isFillable} onClick={() => { fill(...of); }}>
-            Fill
-          </button>
-          <button type="button" class="button small" onClick={() => { leave(...of); }}>
-            Leave
-          </button>
-          {of.length === 1 && of[0].loops.length > 1 && (
-            <button type="button" class="button small" title="Each rim is a hole of its own" onClick={() => { splitHole(of[0]); }}>
-              Split
-            </button>
-          )}
-          {of.length > 1 && (
-            <button type="button" class="button small" title="One surface through all these rims" onClick={() => { joinHoles(of); }}>
-              Join
-            </button>
-          )}
-        </>
-      )}
-    </div>
-  );
-}
-
-/** Not read as the work's state, which changes with every step of its progress. */
-const isFilling = computed(() => filling.state.value.phase === 'running');
-
-type Status = readonly [word: string, tone: '' | 'good' | 'bad', reason?: string];
-
-function statusOf(hole: Hole): Status {
-  const wish = wishFor(hole);
-  if (wish === 'leave') return ['left', ''];
-  if (wish === null) return ['open', ''];
-  const patch = patchOf(hole);
-  if (patch === null) return isFilling.value ? ['filling…', ''] : ['not filled', 'bad'];
-  if (!isFilled(patch)) return ['failed', 'bad', reasonIn(patch)];
-  return patch.result.status === 'self-intersecting' ? ['filled', 'bad', 'it crosses something: marked in red'] : ['filled', 'good'];
-}
-
-function HoleRow({ hole, number }: { hole: Hole; number: number }) {
-  // There may be hundreds of rows: one is made anew only when something about it changes.
-  const isThis = useComputed(() => chosenHoles.value.includes(number)).value;
-  const isHovered = useComputed(() => hoveredHole.value === number).value;
-  const [word, tone, reason] = statusOf(hole);
-  const isOn = wishFor(hole) === 'fill';
-  const share = (100 * hole.length) / diagonal.value;
-  const classes = ['mesh-hole', isThis && 'chosen', isHovered && 'hovered'].filter(Boolean).join(' ');
-  return (
-    <li class={classes} onPointerEnter={() => { hoverHole(number); }}>
-      <button
-        type="button"
-        class="mesh-hole-name"
-        aria-pressed={isThis}
-        onClick={(event) => {
-          if (event.shiftKey) {
-            const others = chosenHoles.peek().filter((each) => each !== number);
-            chooseHoles(...others, ...(isThis ? [] : [number]));
-          } else if (isThis && chosenHoles.peek().length === 1) chooseHoles();
-          else {
-            chooseHoles(number);
-            lookAt(hole);
-          }
-        }}
-      >
-        <span class={hole.isOpenRim ? 'mesh-dot open' : 'mesh-dot'} style={{ '--hue': hueOf(number) }} aria-hidden="true" />
-        <span class="mesh-hole-words">
-          <span>
-            Hole {number + 1} <span class="muted">{kindOfHole(hole)}</span>
-          </span>
-          <span class="muted" title="The length of its rims is given in % of the mesh’s diagonal">
-            {countOf(hole.vertices, 'vertex', 'vertices')}, {share < 10 ? share.toFixed(1) : share.toFixed(0)} % <span class={`mesh-status ${tone}`}>{word}</span>
-          </span>
-          {reason !== undefined && <span class="mesh-status bad">{reason}</span>}
-        </span>
-      </button>
-      <button type="button" class="button small" aria-label={`${isOn ? 'Leave' : 'Fill'} hole ${number + 1}`} onClick={() => { (isOn ? leave : fill)(hole); }}>
-        {isOn ? 'Leave' : 'Fill'}
-      </button>
-    </li>
-  );
-}
-
 const kSmoothness: readonly Choice<MeshSettings['smoothness']>[] = [
   { value: 'none', label: 'None', title: 'As it is spanned' },
   { value: 'direction', label: 'Direction', title: 'The patch goes on in the direction of what is around it' },
@@ -261,9 +87,10 @@ const kCandidates: readonly Choice<MeshSettings['candidates']>[] = [
   { value: 'all', label: 'All', title: 'Every triple of the rims’ vertices: for small holes' },
 ];
 const kDensity = linear(0, kMaxDensity);
+const kCreaseAngle = linear(kMinCrease, kMaxCrease);
 
 function Filling() {
-  const { smoothness, density, candidates } = settings.value;
+  const { smoothness, density, candidates, creases, creaseAngle } = settings.value;
   return (
     <Section title="Filling">
       <Segments label="Smoothness" choices={kSmoothness} value={smoothness} onChange={(value) => { set({ smoothness: value }); }} />
@@ -276,42 +103,24 @@ function Filling() {
         scale={kDensity}
         onChange={(value, passing) => { set({ density: value }, 'density', passing); }}
       />
+      <Switch
+        label="Creases go on"
+        title="Sharp edges that end at a rim go on through the hole, where their ends fit"
+        checked={creases}
+        onChange={(checked) => { set({ creases: checked }); }}
+      />
+      {creases && (
+        <NumberField
+          label="From angle"
+          title="Between faces, in degrees: edges that are sharper are creases"
+          value={creaseAngle}
+          min={kMinCrease}
+          max={kMaxCrease}
+          scale={kCreaseAngle}
+          onChange={(value, passing) => { set({ creaseAngle: value }, 'crease angle', passing); }}
+        />
+      )}
       <Segments label="Triangles from" choices={kCandidates} value={candidates} onChange={(value) => { set({ candidates: value }); }} />
-    </Section>
-  );
-}
-
-const kShown: readonly (readonly [keyof View, string])[] = [
-  ['rims', 'Rims'],
-  ['zebra', 'Zebra stripes'],
-  ['smooth', 'Smooth shading'],
-];
-
-function Show() {
-  const { wires, grid } = shown.value;
-  return (
-    <Section title="Show">
-      <div class="switches">
-        {kShown.map(([key, label]) => (
-          <Switch key={key} label={label} checked={view.value[key]} onChange={(checked) => { view.value = { ...view.peek(), [key]: checked }; }} />
-        ))}
-        <Switch label="Edges" checked={wires} onChange={(checked) => { shown.value = { ...shown.peek(), wires: checked }; }} />
-        <Switch label="Grid" checked={grid} onChange={(checked) => { shown.value = { ...shown.peek(), grid: checked }; }} />
-      </div>
-    </Section>
-  );
-}
-
-function Examples() {
-  return (
-    <Section title="Examples">
-      <div class="mesh-buttons">
-        {kExamples.map((example) => (
-          <button key={example.title} type="button" class="button" onClick={() => { openExample(example); }}>
-            {example.title}
-          </button>
-        ))}
-      </div>
     </Section>
   );
 }

@@ -1,4 +1,5 @@
-// Meshes from files. What reads a format is fetched with the first file of it.
+// Meshes from files. What reads them is fetched with the first file.
+import type { MeshLike } from 'soapfilm';
 import type { Content } from '../../app/content.ts';
 import type { ReadFile } from '../../app/mode.ts';
 import { newItem } from '../../state/document.ts';
@@ -7,19 +8,11 @@ import type { MeshShape } from './settings.ts';
 
 /** @throws SoapfilmError `bad-file` */
 export async function readMesh(kind: string, content: Content): Promise<ReadFile> {
-  return { items: [newItem(meshKind, await shapeIn(kind, content))] };
+  const files = await import('soapfilm/files');
+  return { items: [newItem(meshKind, single(await files.readMesh(content.bytes, `${content.stem}.${kind}`)))] };
 }
 
-async function shapeIn(kind: string, content: Content): Promise<MeshShape> {
-  const readers = await import('./readers.ts');
-  switch (kind) {
-    case 'ply':
-      return readers.readPly(content.bytes);
-    case 'stl':
-      return readers.readStl(content.bytes, content.isText, () => content.text);
-    case 'glb':
-      return readers.readGlb(content.bytes);
-    default:
-      return readers.readObj(content.text);
-  }
+/** The mesh in single precision, as it is drawn. */
+function single({ positions, faces, attributes }: MeshLike): MeshShape {
+  return { positions: positions instanceof Float32Array ? positions : new Float32Array(positions), faces, ...(attributes && { attributes }) };
 }

@@ -13,17 +13,18 @@ import { MeshPanel, summary } from './panel.tsx';
 import { readMesh } from './read.ts';
 import { areMeshSettings, kSettings, type MeshSettings } from './settings.ts';
 import { placeOf, vertexAt } from './whole.ts';
-import { isFilled, reasonIn, wordsFor } from './wording.ts';
+import { isFilled, reasonIn } from './wording.ts';
 
 /** Work that failed, and holes that have no surface. */
 const failures = computed<readonly Failure[]>(() => {
-  const ofWork = [finding, filling].flatMap(({ state: { value } }) => (value.phase === 'failed' ? { ...value, message: wordsFor(value) } : []));
+  const ofWork = [finding, filling].flatMap(({ state: { value } }) => (value.phase === 'failed' ? value : []));
   const now = found.value;
   if (now === null) return ofWork;
   const ofHoles = holes.value.flatMap((hole, h): Failure[] => {
     const patch = patchOf(hole);
+    if (patch === null || isFilled(patch)) return [];
     const place = placeOf(now.of, hole.loops[0]);
-    if (patch === null || isFilled(patch) || place === null) return [];
+    if (place === null) return [];
     const point = vertexAt(now.of, now.report.loops[hole.loops[0]].vertices[0]);
     return [{ code: patch.result.reason ?? 'failed', message: `Hole ${h + 1}: ${reasonIn(patch)}.`, faults: [{ place, isEdge: false }], point }];
   });
@@ -52,6 +53,7 @@ export const openRoom = (stage: Stage): Room => ({
       { section: 'View', keys: 'Right drag, two fingers', what: 'Move' },
       { section: 'View', keys: 'Arrows, + −', what: 'Turn and zoom, with the scene in focus' },
       { section: 'Edit', keys: 'Click on a rim', what: 'Choose the hole; Shift: more than one' },
+      { section: 'Edit', keys: '↑ ↓', what: 'Previous and next hole, in the list; Shift: choose more' },
     ],
   },
   summary,

@@ -1,5 +1,6 @@
 // Meshes as objects of the document, and what is to become of their holes: settings of the group, so that undo works.
 import type { HoleFillOptions } from 'soapfilm';
+import type { Attributes } from './attributes.ts';
 import type { Group, Id } from '../../state/document.ts';
 import { groupOf } from '../../state/store.ts';
 
@@ -12,6 +13,8 @@ export interface MeshShape {
   readonly positions: Float32Array;
   /** `[3m]` */
   readonly faces: Uint32Array;
+  /** Of the vertices, by name. `color`, of 3 or 4 numbers from 0 to 1 as on the screen, is drawn. */
+  readonly attributes?: Attributes;
 }
 
 /** Words in place of the library's numbers, since drafts are checked by types. */
@@ -32,6 +35,9 @@ export interface MeshSettings extends Choices {
   /** How much denser than its surroundings a patch is; 0: without new vertices. */
   readonly density: number;
   readonly candidates: NonNullable<HoleFillOptions['candidates']>;
+  /** Whether creases go on through holes, and from which angle in degrees on an edge is one. */
+  readonly creases: boolean;
+  readonly creaseAngle: number;
   /** Whether filling all fills open rims as well. */
   readonly openRims: boolean;
   /** The objects that the choices are about: of others their loops mean nothing. */
@@ -41,25 +47,31 @@ export interface MeshSettings extends Choices {
 export type MeshGroup = Group<MeshSettings>;
 
 export const kMaxDensity = 3;
+export const kMinCrease = 5;
+export const kMaxCrease = 120;
 export const kNoChoices: Choices = { filled: [], left: [], groups: [] };
 
 export const kSettings: MeshSettings = {
   smoothness: 'auto',
   density: Math.SQRT2,
   candidates: 'auto',
+  creases: true,
+  creaseAngle: 40,
   openRims: false,
   of: [],
   ...kNoChoices,
 };
 
 /** Whether the mode can work with settings of the right types. */
-export function areMeshSettings({ smoothness, density, candidates, of, filled, left, groups }: MeshSettings): boolean {
+export function areMeshSettings({ smoothness, density, candidates, creaseAngle, of, filled, left, groups }: MeshSettings): boolean {
   const areNumbers = (list: unknown): boolean => Array.isArray(list) && list.every((x) => Number.isInteger(x) && (x as number) >= 0);
   return (
     ['none', 'direction', 'curvature', 'auto'].includes(smoothness) &&
     density >= 0 &&
     density <= kMaxDensity &&
     ['auto', 'all', 'delaunay', 'near'].includes(candidates) &&
+    creaseAngle >= kMinCrease &&
+    creaseAngle <= kMaxCrease &&
     [of, filled, left, ...groups].every(areNumbers)
   );
 }

@@ -1,7 +1,8 @@
 // Vertices at the same place as one.
+import { picked } from './attributes.ts';
 import type { MeshShape } from './settings.ts';
 
-/** Corners at the same place as one vertex. @param corners `[3n]`, of which zeros lose their sign */
+/** Corners at the same place as one vertex, the first of them. @param corners `[3n]`, of which zeros lose their sign */
 export function welded(corners: Float32Array): MeshShape {
   const n = corners.length / 3;
   // Zero has two signs.
@@ -37,8 +38,8 @@ export function welded(corners: Float32Array): MeshShape {
   return { positions: positions.slice(0, 3 * count), faces };
 }
 
-/** The mesh with vertices at the same place as one, and without faces that have a vertex twice then. */
-export function weld({ positions, faces }: MeshShape): MeshShape {
+/** The mesh with vertices at the same place as one, with the attributes of the first, and without faces that have a vertex twice then. */
+export function weld({ positions, faces, attributes }: MeshShape): MeshShape {
   const { positions: places, faces: placeOf } = welded(positions.slice());
   const kept = new Uint32Array(faces.length);
   let to = 0;
@@ -49,7 +50,9 @@ export function weld({ positions, faces }: MeshShape): MeshShape {
     kept[to++] = b;
     kept[to++] = c;
   }
-  return { positions: places, faces: kept.slice(0, to) };
+  const first = new Uint32Array(places.length / 3);
+  for (let vertex = placeOf.length - 1; vertex >= 0; vertex--) first[placeOf[vertex]] = vertex;
+  return { positions: places, faces: kept.slice(0, to), ...picked(attributes, first) };
 }
 
 /** How many of some vertices lie where another of them does. */

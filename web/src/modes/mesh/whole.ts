@@ -1,7 +1,9 @@
 // All meshes of the group as one, as the library takes them, and the rims that were found in each.
 import type { HoleReport } from 'soapfilm';
+import type { MeshSessionHandle } from 'soapfilm/worker';
 import { unionOf, type Box, type Point } from '../../shapes/vec.ts';
 import type { Id, Item, Place } from '../../state/document.ts';
+import { joined } from './attributes.ts';
 import type { MeshShape } from './settings.ts';
 
 /** One mesh: that of the only object, or those of several one after the other. */
@@ -20,14 +22,19 @@ export const vertexAt = ({ positions }: MeshShape, vertex: number): Point => [
   positions[3 * vertex + 2],
 ];
 
+/** A mesh as the library takes it. */
+export const meshIn = ({ positions, faces, attributes }: MeshShape): MeshShape => ({ positions, faces, ...(attributes && { attributes }) });
+
 /** What was found in a mesh. */
 export interface Found {
   readonly of: Whole;
   readonly report: HoleReport;
+  /** Where the mesh stays open, so that filling a hole costs what the hole does. */
+  readonly session: MeshSessionHandle;
 }
 
 /** The least box around some of the loops that were found. */
-export function boxOfLoops({ of, report }: Found, loops: readonly number[]): Box {
+export function boxOfLoops({ of, report }: Pick<Found, 'of' | 'report'>, loops: readonly number[]): Box {
   const points = loops.flatMap((loop) => Array.from(report.loops[loop].vertices, (vertex) => vertexAt(of, vertex)));
   return unionOf(points.map((point) => ({ low: point, high: point })));
 }
@@ -44,20 +51,22 @@ export function wholeOf(items: readonly Item[]): Whole {
     positions.set(shape.positions, 3 * starts[k]);
     for (const vertex of shape.faces) faces[to++] = starts[k] + vertex;
   });
-  return { items, starts, positions, faces };
+  return { items, starts, positions, faces, ...joined(shapes) };
 }
 
 /** The rims of one mesh: its parts, as the document calls them, with their vertices as handles. */
 export interface Rims {
   /** `[rims]` their numbers in the report. */
   readonly loops: readonly number[];
+  /** The other way round: which rim a loop is. */
+  readonly parts: ReadonlyMap<number, number>;
   /** `[rims + 1]` where each begins. */
   readonly starts: Uint32Array;
   /** The vertices of the mesh along the rims. */
   readonly vertices: Uint32Array;
 }
 
-const kNoRims: Rims = { loops: [], starts: new Uint32Array(1), vertices: new Uint32Array() };
+const kNoRims: Rims = { loops: [], parts: new Map(), starts: new Uint32Array(1), vertices: new Uint32Array() };
 const found = new WeakMap<object, Rims>();
 
 /** What was found in a mesh; no rims until then. */
@@ -73,7 +82,8 @@ export function noteRims({ items, starts }: Whole, { loops }: HoleReport): void 
     numbers.forEach((i, rim) => {
       loops[i].vertices.forEach((vertex, at) => (vertices[ends[rim] + at] = vertex - starts[k]));
     });
-    found.set(shapeOf(item), { loops: numbers, starts: ends, vertices });
+    const parts = new Map(numbers.map((loop, part) => [loop, part]));
+    found.set(shapeOf(item), { loops: numbers, parts, starts: ends, vertices });
   });
 }
 
@@ -85,8 +95,8 @@ export function loopAt({ items }: Whole, { item: id, part }: Place): number | un
 
 export function placeOf({ items }: Whole, loop: number): Place | null {
   for (const item of items) {
-    const part = rimsOf(shapeOf(item)).loops.indexOf(loop);
-    if (part >= 0) return { item: item.id, part, handle: null };
+    const part = rimsOf(shapeOf(item)).parts.get(loop);
+    if (part !== undefined) return { item: item.id, part, handle: null };
   }
   return null;
 }

@@ -1,7 +1,7 @@
 // Holes, what became of them, and what is wrong with a mesh, in the words of the page.
 import type { DefectKind, HoleReason, MeshDefect } from 'soapfilm';
 import { countOf } from '../../app/files.ts';
-import type { Failure } from '../../state/work.ts';
+import { plainFailure, type Failure } from '../../state/work.ts';
 import type { Patch } from './filling.ts';
 import type { Hole } from './grouping.ts';
 
@@ -57,14 +57,8 @@ function isOne({ kind, faces, edges, vertices }: MeshDefect): boolean {
 }
 
 /** What to tell of work that failed. */
-export function wordsFor({ code, message }: Failure): string {
-  switch (code) {
-    case 'load-failed':
-      return `soapfilm could not be loaded: ${message}`;
-    case 'too-large':
-    case 'out-of-memory':
-      return 'This mesh is too large for the memory of the page.';
-    default:
-      return message;
-  }
+export function explain(error: unknown): Failure {
+  const plain = plainFailure(error);
+  const isTooMuch = plain.code === 'too-large' || plain.code === 'out-of-memory';
+  return isTooMuch ? { ...plain, message: 'This mesh is too large for the memory of the page.' } : plain;
 }

@@ -3,7 +3,7 @@ import type { Action } from '../../app/actions.ts';
 import { fileStem, save } from '../../app/files.ts';
 import type { Lines } from '../../shapes/lines.ts';
 import { complain } from '../../state/notice.ts';
-import { choose, dispatch, put, requestFrame } from '../../state/store.ts';
+import { beginWith, openItems, type Opening } from '../../state/store.ts';
 import { newItem } from '../../state/document.ts';
 import { kExamples, type Example } from './examples.ts';
 import { beginFlooding, endFlooding, isFlooding } from './flooding.ts';
@@ -65,15 +65,13 @@ function savePolygons(): void {
   save(`${fileStem(name)}.geojson`, 'application/geo+json', async () => (await import('./write.ts')).writeGeoJSON(polygons, name));
 }
 
-export function openExample({ title, shape }: Example): void {
-  choose();
-  dispatch({ type: 'open', group: polygonGroup.peek().id, name: title, items: [newItem(polygonKind, shape())] });
-  requestFrame();
+const openingOf = ({ title, shape }: Example): Opening => ({ name: title, items: [newItem(polygonKind, shape())] });
+
+export function openExample(example: Example): void {
+  openItems(polygonGroup.peek(), openingOf(example));
 }
 
 /** The first example, as what was there from the beginning. */
 export function beginWithExample(): void {
-  const { title, shape } = kExamples[0];
-  put({ ...polygonGroup.peek(), name: title, items: [newItem(polygonKind, shape())] });
-  requestFrame(undefined, true);
+  beginWith(polygonGroup.peek(), openingOf(kExamples[0]));
 }

@@ -1,6 +1,6 @@
 // What the mode draws besides rings and their vertices: triangles, what repair added, where something is wrong, and
 // flooding on its way.
-import { computed, effect } from '@preact/signals';
+import { computed } from '@preact/signals';
 import { Dots } from '../../scene/dots.ts';
 import { FatLines, pathOf } from '../../scene/fat_line.ts';
 import type { ModeScene } from '../../scene/mode_scene.ts';
@@ -22,14 +22,8 @@ export function drawTriangulation({ view, theme }: Stage, { root, placement }: M
   const [fill, points, chain, chainEnds] = [new Fill(), new Dots(false), new FatLines(), new Dots(false)];
   root.add(fill.object, points.object, chain.object, chainEnds.object);
   const flood = computed(() => flooding.value?.flood ?? null);
-  const follow = (draw: () => void): void => {
-    effect(() => {
-      draw();
-      view.invalidate();
-    });
-  };
 
-  follow(() => {
+  view.follow(() => {
     const found = triangulated.value;
     if (flood.value) fill.setTriangles(flood.value.positions, flood.value.triangles, placement.value);
     else if (found && found.strips.length > 0) {
@@ -37,16 +31,16 @@ export function drawTriangulation({ view, theme }: Stage, { root, placement }: M
       fill.setTriangles(found.positions, triangles, placement.value, stripOf);
     } else if (found) fill.setTriangles(found.positions, found.triangles, placement.value);
   });
-  follow(() => {
+  view.follow(() => {
     const now = flooding.value;
     fill.object.visible = now !== null || (triangulated.value !== null && shown.value.surface);
     fill.showFirst(now ? now.flood.steps[now.taken].triangles : Infinity);
   });
-  follow(() => {
+  view.follow(() => {
     fill.setLook(theme.value.surface, shown.value.wires);
   });
 
-  follow(() => {
+  view.follow(() => {
     const found = triangulated.value;
     const { curves } = theme.value;
     const dots = points.begin(placement.value);
@@ -60,7 +54,7 @@ export function drawTriangulation({ view, theme }: Stage, { root, placement }: M
   });
 
   // The active chain's ends, and the level of the water between them.
-  follow(() => {
+  view.follow(() => {
     const now = flooding.value;
     const { curves } = theme.value;
     const dots = chainEnds.begin(placement.value);

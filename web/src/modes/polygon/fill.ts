@@ -1,5 +1,6 @@
 // Triangles in the plane, flat, with their edges; some of them in colours of their own.
 import { BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, ShaderMaterial, Sphere, SRGBColorSpace } from 'three';
+import { kCorner, kWire } from '../../scene/glsl.ts';
 import type { Placement } from '../../scene/placement.ts';
 import type { SurfaceColors } from '../../scene/theme.ts';
 
@@ -8,29 +9,25 @@ const kHues = 24;
 
 // Tint 0 is the plain colour. The corners of each triangle are three vertices that no other one has.
 const kVertexShader = /* glsl */ `
+${kCorner}
 attribute float tint;
 uniform vec3 uColors[${kHues + 1}];
 varying vec3 vColor;
 varying vec3 vCorner;
 void main() {
-  int corner = gl_VertexID % 3;
-  vCorner = vec3(float(corner == 0), float(corner == 1), float(corner == 2));
+  vCorner = cornerOf(gl_VertexID);
   vColor = uColors[int(tint)];
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
 
 const kFragmentShader = /* glsl */ `
+${kWire}
 uniform vec3 uWire;
 uniform float uWireOpacity;
 varying vec3 vColor;
 varying vec3 vCorner;
 void main() {
-  vec3 perPixel = fwidth(vCorner);
-  // Half of an edge of 0.75 pixels.
-  vec3 inside = smoothstep(perPixel * -0.125, perPixel * 0.875, vCorner);
-  // Edges of triangles that are lower than a few pixels fade, else they would cover everything.
-  vec3 strength = (1.0 - inside) * (1.0 - smoothstep(0.3, 1.2, perPixel));
-  float wire = max(max(strength.x, strength.y), strength.z);
+  float wire = wireAt(vCorner, 0.3, 1.2);
   gl_FragColor = vec4(mix(vColor, uWire, wire * uWireOpacity), 1.0);
   #include <colorspace_fragment>
 }`;

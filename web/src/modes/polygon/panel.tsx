@@ -3,8 +3,8 @@ import { computed } from '@preact/signals';
 import { PenFields } from '../../app/pen_fields.tsx';
 import { Section, Segments, type Choice } from '../../app/controls.tsx';
 import { countOf } from '../../app/files.ts';
-import { Row, Show } from '../../app/panel_parts.tsx';
-import { dispatch, tool } from '../../state/store.ts';
+import { Examples, Flags, Row, Show, Trouble } from '../../app/panel_parts.tsx';
+import { setIn, shown, tool } from '../../state/store.ts';
 import { openExample } from './actions.ts';
 import { kExamples } from './examples.ts';
 import { flooding } from './flooding.ts';
@@ -20,17 +20,11 @@ const kMostFaults = 3;
 const isEmpty = computed(() => polygonGroup.value.items.length === 0);
 const settings = computed(() => polygonGroup.value.settings);
 
-/** Why there is no result, if there is none for good. */
-const trouble = computed(() => {
-  const state = work.state.value;
-  if (state.phase === 'cancelled') return 'Ended before there was a result.';
-  if (state.phase !== 'failed') return null;
-  return state.code === 'load-failed' ? `soapfilm could not be loaded: ${state.message}` : state.message;
-});
-
 export const summary = computed(() => {
   if (isEmpty.value) return 'No polygons yet';
-  if (trouble.value !== null) return trouble.value;
+  const state = work.state.value;
+  if (state.phase === 'failed') return state.message;
+  if (state.phase === 'cancelled') return 'Cancelled';
   const found = triangulated.value;
   if (found === null) return 'Loading…';
   if (failures.value.length > 0) return failures.value[0].message;
@@ -52,8 +46,10 @@ export function Panel() {
           </div>
         </Section>
       )}
-      <Examples />
-      <Show labels={{ surface: 'Triangles', wires: 'Edges', vertices: 'Vertices' }} />
+      <Examples of={kExamples} open={openExample} />
+      <Show>
+        <Flags of={shown} labels={{ surface: 'Triangles', wires: 'Edges', vertices: 'Vertices' }} />
+      </Show>
     </>
   );
 }
@@ -62,14 +58,7 @@ function Result() {
   const found = triangulated.value;
   return (
     <Section title="Result">
-      {trouble.value !== null && (
-        <div class="message error">
-          <p>{trouble.value}</p>
-          <button type="button" class="button small" onClick={() => { work.start(); }}>
-            Try again
-          </button>
-        </div>
-      )}
+      <Trouble work={work} />
       {failures.value.slice(0, kMostFaults).map(({ message }, i) => (
         <div class="message error" key={i}>
           <p>{message}</p>
@@ -138,23 +127,7 @@ function Triangulating() {
   );
 }
 
-function set(change: Partial<PolygonSettings>): void {
-  dispatch({ type: 'set', group: polygonGroup.peek().id, settings: change });
-}
-
-function Examples() {
-  return (
-    <Section title="Examples">
-      <div class="polygon-examples">
-        {kExamples.map((example) => (
-          <button key={example.title} type="button" class="button" onClick={() => { openExample(example); }}>
-            {example.title}
-          </button>
-        ))}
-      </div>
-    </Section>
-  );
-}
+const set = (change: Partial<PolygonSettings>): void => { setIn(polygonGroup.peek(), change); };
 
 const kSteps = {
   start: 'Start at a bottom',
