@@ -212,13 +212,14 @@ SF_API(sf_session_close) SfStatus sf_session_close(uint32_t session);
 ///   positions  [3 * vertexCount] xyz
 ///   faces      [3 * faceCount]
 ///   keeps      whether a copy of the mesh stays in a session, for sf_fill_holes
+///   groups     whether rims are grouped and handed out. Filling needs neither: `session` is then all there is
 ///   maxBytes   memory limit
 ///   where      out: the vertex at fault; for BadMesh, the face as `vertex`
 ///   result     out: SF_HOLES_ARRAYS; null unless the status is Ok
 SF_API(sf_find_holes)
 SfStatus sf_find_holes(const double* positions, uint32_t vertexCount, const uint32_t* faces,
-                       uint32_t faceCount, uint32_t keeps, double maxBytes, SfPlace* where,
-                       SfResult** result);
+                       uint32_t faceCount, uint32_t keeps, uint32_t groups, double maxBytes,
+                       SfPlace* where, SfResult** result);
 
 /// Welds each vertex to the first one within `radius` that was not welded itself; 0: at the same place.
 ///   radius   finite, not negative; the rest as for sf_find_holes

@@ -62,13 +62,15 @@ export function computeCrossings(mesh: BareMesh, budget: Budget): Timed<Uint32Ar
 }
 
 /** The holes of a mesh that is then forgotten. */
-export const computeHoles = (mesh: BareMesh, budget: Budget): Timed<HolesArrays> => findIn(callShared, mesh, 0, budget);
+export const computeHoles = (mesh: BareMesh, budget: Budget): Timed<HolesArrays> => findIn(callShared, mesh, { keeps: false }, budget);
 
 /** The holes of a mesh, which stays in the instance by the number that is the only one in `session`. */
-export const openIn = (call: MeshCall, mesh: BareMesh, budget: Budget): Timed<HolesArrays> => findIn(call, mesh, 1, budget);
+export const openIn = (call: MeshCall, mesh: BareMesh, budget: Budget): Timed<HolesArrays> => findIn(call, mesh, { keeps: true }, budget);
 
-function findIn(call: MeshCall, mesh: BareMesh, keeps: 0 | 1, budget: Budget): Timed<HolesArrays> {
-  return timed((watch, memory) => call('sf_find_holes', [...argumentsOf(mesh), keeps, memory], readHolesArrays, watch), budget);
+/** @param groups whether holes are handed out; if not, there is a session alone */
+function findIn(call: MeshCall, mesh: BareMesh, { keeps, groups = true }: { keeps: boolean; groups?: boolean }, budget: Budget): Timed<HolesArrays> {
+  const flags = [Number(keeps), Number(groups)];
+  return timed((watch, memory) => call('sf_find_holes', [...argumentsOf(mesh), ...flags, memory], readHolesArrays, watch), budget);
 }
 
 /** Fills holes of a mesh that is open. */
@@ -96,9 +98,11 @@ let keptHome = new Home('meshes');
 const callKept: MeshCall = (name, args, read, watch) => callCore(keptHome, name, args, read, watch).arrays;
 
 /** The holes of a mesh that stays open in this thread, in place of the one before. */
-export function computeOpen({ name, mesh }: NamedMesh, budget: Budget): Timed<HolesArrays> {
+export const computeOpen = (mesh: NamedMesh, budget: Budget): Timed<HolesArrays> => keep(mesh, true, budget);
+
+function keep({ name, mesh }: NamedMesh, groups: boolean, budget: Budget): Timed<HolesArrays> {
   if (kept) forgetMesh(kept.name);
-  const opened = openIn(callKept, mesh as BareMesh, budget);
+  const opened = findIn(callKept, mesh as BareMesh, { keeps: true, groups }, budget);
   kept = { name, session: opened.value.session[0] };
   return opened;
 }
@@ -107,7 +111,7 @@ export function computeOpen({ name, mesh }: NamedMesh, budget: Budget): Timed<Ho
 export function computePatches(mesh: NamedMesh, { work, ...budget }: Budget & { readonly work: PatchWork }): Timed<FillArrays> {
   const { spentSeconds = 0, onProgress, ...limits } = budget;
   try {
-    const { seconds } = kept?.name === mesh.name ? { seconds: 0 } : computeOpen(mesh, { ...limits, spentSeconds });
+    const { seconds } = kept?.name === mesh.name ? { seconds: 0 } : keep(mesh, false, { ...limits, spentSeconds });
     const filled = fillIn(callKept, kept?.session as number, work, { ...limits, spentSeconds: spentSeconds + seconds, onProgress });
     return { value: filled.value, seconds: seconds + filled.seconds };
   } catch (error) {

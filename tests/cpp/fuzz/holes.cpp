@@ -193,7 +193,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   SfResult* holes = nullptr;
   const SfStatus status =
       sf_find_holes(mesh.positions.data(), mesh.vertexCount(), mesh.faces.data(), mesh.faceCount(),
-                    1, 64e6, &where, &holes);
+                    1, 1, 64e6, &where, &holes);
   require((status == 0) == (holes != nullptr), "a result with Ok alone");
   if (holes == nullptr) return 0;
   fill(mesh, holes, in);

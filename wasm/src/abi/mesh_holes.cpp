@@ -37,12 +37,9 @@ sf::Kept<OpenMesh>& openMeshes() {
   return all;
 }
 
-sf::Outcome find(sf::Work& work, sf::Charge& charge, Found& found, sf::Grouping& grouping) {
-  if (!sf::buildAdjacency(found.mesh, work, charge, found.adjacency) ||
-      !sf::findRims(found.mesh, found.adjacency, work, charge, found.rims) ||
-      !sf::groupRims(found.mesh, found.adjacency, found.rims, work, charge, grouping))
-    return {work.status()};
-  return {};
+bool find(sf::Work& work, sf::Charge& charge, Found& found) {
+  return sf::buildAdjacency(found.mesh, work, charge, found.adjacency) &&
+         sf::findRims(found.mesh, found.adjacency, work, charge, found.rims);
 }
 
 SfResult* pack(const Found& found, sf::Grouping&& grouping) {
@@ -135,7 +132,8 @@ SfFilledFacts factsOf(const sf::FilledHole& hole) {
 
 extern "C" SfStatus sf_find_holes(const double* positions, uint32_t vertexCount,
                                   const uint32_t* faces, uint32_t faceCount, uint32_t keeps,
-                                  double maxBytes, SfPlace* where, SfResult** result) {
+                                  uint32_t groups, double maxBytes, SfPlace* where,
+                                  SfResult** result) {
   *result = nullptr;
   if (!(maxBytes >= 0)) return sf::endWith({sf::Status::BadOption}, where);
   sf::Work work = sf::hostWork(maxBytes);
@@ -154,9 +152,13 @@ extern "C" SfStatus sf_find_holes(const double* positions, uint32_t vertexCount,
     }
   }
   sf::Grouping grouping;
-  if (outcome.ok()) outcome = find(work, charge, opened->found, grouping);
+  Found& found = opened->found;
+  if (outcome.ok() && !find(work, charge, found)) outcome = {work.status()};
+  if (outcome.ok() && groups &&
+      !sf::groupRims(mesh, found.adjacency, found.rims, work, charge, grouping))
+    outcome = {work.status()};
   if (outcome.ok()) {
-    *result = pack(opened->found, std::move(grouping));
+    *result = groups ? pack(found, std::move(grouping)) : new SfResult(SfHolesArrayCount);
     opened->bytes = charge.bytes();
     if (keeps)
       (*result)->put<SfHoles_session>(std::vector<uint32_t>{openMeshes().keep(std::move(opened))});
