@@ -219,10 +219,9 @@ class Parting {
     // In order around the rim, from there on.
     std::vector<uint32_t> places;
     for (const CreaseEnd& end : ends_)
-      if (end.place != x) places.push_back(end.place);
-    std::sort(places.begin(), places.end(), [&](uint32_t i, uint32_t k) {
-      return (i + count_ - x) % count_ < (k + count_ - x) % count_;
-    });
+      if (end.place > x) places.push_back(end.place);
+    for (const CreaseEnd& end : ends_)
+      if (end.place < x) places.push_back(end.place);
     const size_t m = places.size();
     const bool beginsAlong = runsAlong(x, places[0], {}),
                endsAlong = runsAlong(places[m - 1], x, {});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort.h"
 #include "mesh/joint_cost.h"
 #include "mesh/smooth_patch.h"
 #include "mesh/stitch.h"
@@ -343,7 +344,7 @@ void HoleFiller::takeSide(Hole& hole, double crease, std::vector<uint32_t>& face
     if (corner.goesOn()) faces.push_back(rims_.halves[corner.edge] / 3);
   const Creases creases(mesh_, adjacency_, around_.fanStarts, around_.fans, crease);
   std::vector<uint32_t> known(faces);
-  std::sort(known.begin(), known.end());
+  sf::sort(known.begin(), known.end());
   size_t stepStart = 0;
   for (uint32_t step = 0; step < 2 * kRings; ++step) {
     const size_t stepEnd = faces.size();
@@ -355,11 +356,11 @@ void HoleFiller::takeSide(Hole& hole, double crease, std::vector<uint32_t>& face
             !std::binary_search(known.begin(), known.end(), twin / 3))
           next.push_back(twin / 3);
       }
-    std::sort(next.begin(), next.end());
+    sf::sort(next.begin(), next.end());
     next.erase(std::unique(next.begin(), next.end()), next.end());
     faces.insert(faces.end(), next.begin(), next.end());
     known.insert(known.end(), next.begin(), next.end());
-    std::inplace_merge(known.begin(), known.end() - ptrdiff_t(next.size()), known.end());
+    sf::sort(known.begin(), known.end());
     stepStart = stepEnd;
   }
   for (const uint32_t f : faces)
@@ -403,7 +404,7 @@ void HoleFiller::surround(Hole& hole, double crease) {
     takeSide(hole, crease, faces);
   else
     takeRings(hole, faces);
-  std::sort(faces.begin(), faces.end());
+  sf::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   LocalSurface& surface = hole.surface;
   for (const uint32_t v : vertices) {
@@ -515,12 +516,10 @@ Status HoleFiller::fillWhole(ArrayView<const uint32_t> rims, const FillOptions& 
     result = {};
   }
   Hole hole;
-  hole.starts = {0};
   for (const uint32_t r : rims) hole.crossesSeam |= rims_.rims[r].crossesSeam;
-  for (const std::vector<uint32_t>& loop : loopsAround(rims_, rims)) {
-    for (const uint32_t e : loop) hole.corners.push_back({rims_.vertices[e], e});
-    hole.starts.push_back(uint32_t(hole.corners.size()));
-  }
+  RimLoops loops = loopsAround(rims_, rims);
+  for (const uint32_t e : loops.edges) hole.corners.push_back({rims_.vertices[e], e});
+  hole.starts = std::move(loops.starts);
   const size_t positions = newPositions_.size(), faces = newFaces_.size();
   result.firstFace = faceCount();
   const Status status = fillPart(hole, options, result);

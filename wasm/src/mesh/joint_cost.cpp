@@ -50,7 +50,7 @@ uint32_t edgesAlong(const LoopSet& loops, ArrayView<const uint32_t> triangles) {
 JointCost::JointCost(const MeshView& mesh, const Rims& rims, Work& work)
     : mesh_(mesh), rims_(rims), work_(work), alone_(rims.count(), std::nan("")) {}
 
-bool JointCost::costOf(const std::vector<uint32_t>& rims, double& cost) {
+bool JointCost::costOf(ArrayView<const uint32_t> rims, double& cost) {
   cost = std::numeric_limits<double>::infinity();
   if (spent_ >= kMostUnitsOfAll) return true;
   std::vector<Vec3> positions;
@@ -86,13 +86,14 @@ bool JointCost::compare(uint32_t first, uint32_t second, Verdict& verdict) {
   const auto size = [&](uint32_t r) { return rims_.starts[r + 1] - rims_.starts[r]; };
   if (size(first) + size(second) > kMostVertices) return true;
   double apart = 0;
-  for (const uint32_t r : {first, second}) {
-    if (std::isnan(alone_[r]) && !costOf({r}, alone_[r])) return false;
+  const uint32_t pair[] = {first, second};
+  for (const uint32_t& r : pair) {
+    if (std::isnan(alone_[r]) && !costOf({&r, 1}, alone_[r])) return false;
     apart += alone_[r];
   }
   if (!std::isfinite(apart)) return true;
   double joint;
-  if (!costOf({first, second}, joint)) return false;
+  if (!costOf({pair, 2}, joint)) return false;
   if (std::isfinite(joint)) verdict = joint < apart ? Verdict::Together : Verdict::Apart;
   return true;
 }

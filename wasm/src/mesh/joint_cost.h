@@ -33,7 +33,7 @@ class JointCost {
   bool compare(uint32_t first, uint32_t second, Verdict& verdict);
 
  private:
-  bool costOf(const std::vector<uint32_t>& rims, double& cost);
+  bool costOf(ArrayView<const uint32_t> rims, double& cost);
 
   MeshView mesh_;
   const Rims& rims_;

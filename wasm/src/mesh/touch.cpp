@@ -23,7 +23,7 @@ uint32_t goesOnTo(const Rims& rims, const std::vector<uint32_t>& sorted, uint32_
 
 }  // namespace
 
-std::vector<std::vector<uint32_t>> loopsAround(const Rims& rims, ArrayView<const uint32_t> group) {
+RimLoops loopsAround(const Rims& rims, ArrayView<const uint32_t> group) {
   std::vector<uint32_t> sorted(group.begin(), group.end());
   sf::sort(sorted.begin(), sorted.end());
   std::vector<size_t> firsts{0};  // of each rim, in `isDone`
@@ -35,15 +35,15 @@ std::vector<std::vector<uint32_t>> loopsAround(const Rims& rims, ArrayView<const
     const auto place = std::lower_bound(sorted.begin(), sorted.end(), r) - sorted.begin();
     return isDone[firsts[size_t(place)] + e - rims.starts[r]];
   };
-  std::vector<std::vector<uint32_t>> loops;
+  RimLoops loops{{}, {0}};
   for (const uint32_t r : group)
     for (uint32_t first = rims.starts[r]; first < rims.starts[r + 1]; ++first) {
       if (done(first)) continue;
-      loops.emplace_back();
       for (uint32_t e = first; !done(e); e = goesOnTo(rims, sorted, e)) {
         done(e) = 1;
-        loops.back().push_back(e);
+        loops.edges.push_back(e);
       }
+      loops.starts.push_back(uint32_t(loops.edges.size()));
     }
   return loops;
 }

@@ -9,9 +9,14 @@
 
 namespace sf {
 
+struct RimLoops {
+  std::vector<uint32_t> edges;   // of rims, loop after loop
+  std::vector<uint32_t> starts;  // [k+1] in `edges`
+};
+
 /// Loops of rim edges around a hole, as faces that fill it run. Rims of the hole that touch are joined as they were
 /// followed across the gaps between faces; the others are a loop each. O(n log n) time for n edges.
-std::vector<std::vector<uint32_t>> loopsAround(const Rims& rims, ArrayView<const uint32_t> group);
+RimLoops loopsAround(const Rims& rims, ArrayView<const uint32_t> group);
 
 /// Whether the triangles around a vertex, [3t] vertices of which one is `vertex`, close to one fan.
 bool isFan(const std::vector<uint32_t>& triangles, uint32_t vertex);

@@ -74,10 +74,9 @@ void SurfaceSearch::keepNear() {
     }
     for (std::vector<Bridge>& edges : edgesAt) {
       const size_t count = std::min(edges.size(), kNearEdges);
-      std::partial_sort(edges.begin(), edges.begin() + std::ptrdiff_t(count), edges.end(),
-                        [](const Bridge& a, const Bridge& b) {
-                          return a.key < b.key || (a.key == b.key && a.edge < b.edge);
-                        });
+      sf::sort(edges.begin(), edges.end(), [](const Bridge& a, const Bridge& b) {
+        return a.key < b.key || (a.key == b.key && a.edge < b.edge);
+      });
       for (size_t i = 0; i < count; ++i) isNear[edges[i].edge] = 1;
     }
   }
