@@ -381,6 +381,12 @@ test('colours of vertices: on the mesh and on patches, or not', async ({ quietPa
   })).toBeGreaterThan(0.05);
 });
 
+test('a file of which something is left out: it opens, and says what', async ({ quietPage: page }) => {
+  await openMode(page);
+  await openFile(page, 'seam.obj', 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt .5 .5\nf 1/1 2/2 3/3\nf 1/5 3/3 4/4\n');
+  await expect(page.getByText(/Opened “seam.obj”: 1 mesh. Some vertices have several texture coordinates/)).toBeVisible();
+});
+
 test('a PLY with colours: they are drawn, carried on by patches and exported', async ({ quietPage: page }) => {
   await openMode(page);
   const torus = tornTorus();

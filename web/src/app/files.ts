@@ -22,7 +22,7 @@ export interface Destination {
 
 /** A file that was read, or why not. */
 type Outcome = { readonly file: File } & (
-  | { readonly is: 'read'; readonly items: readonly Item[]; readonly name: string }
+  | { readonly is: 'read'; readonly items: readonly Item[]; readonly name: string; readonly warnings: readonly string[] }
   /** Of a format that another mode opens. */
   | { readonly is: 'elsewhere'; readonly what: string; readonly opener: Mode }
   /** Of a format that no mode opens; null: of none that is known. */
@@ -64,9 +64,9 @@ async function read(file: File, { mode, room, modes }: Destination): Promise<Out
   if (kind) {
     try {
       await nextTask();
-      const { items, name = content.stem } = await room.read(kind.id, content);
+      const { items, name = content.stem, warnings = [] } = await room.read(kind.id, content);
       await nextTask();
-      return { file, is: 'read', items, name };
+      return { file, is: 'read', items, name, warnings };
     } catch (error) {
       return broken(reasonOf(error, 'what reads files could not be loaded'));
     }
@@ -122,6 +122,7 @@ function tell(outcomes: readonly Outcome[], into: Destination): void {
   if (opened.length > 0) {
     sentences.push(`Opened ${listed(quoted(opened), kMostNames)}: ${countOf(itemsOf(opened).length, ...into.room.nouns)}.`);
   }
+  for (const warning of new Set(opened.flatMap(({ warnings }) => warnings))) sentences.push(ended(warning));
   for (const each of outcomes) {
     if (each.is === 'broken') sentences.push(`Could not open “${each.file.name}”: ${ended(each.reason)}`);
   }

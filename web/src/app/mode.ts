@@ -41,6 +41,8 @@ export interface ReadFile {
   readonly items: readonly Item[];
   /** What the file calls itself. */
   readonly name?: string;
+  /** What was left out of it, a sentence each. */
+  readonly warnings?: readonly string[];
 }
 
 /** A row of the help sheet that no action stands for, such as a gesture. */

@@ -9,7 +9,8 @@ import type { MeshShape } from './settings.ts';
 /** @throws SoapfilmError `bad-file` */
 export async function readMesh(kind: string, content: Content): Promise<ReadFile> {
   const files = await import('soapfilm/files');
-  return { items: [newItem(meshKind, single(await files.readMesh(content.bytes, `${content.stem}.${kind}`)))] };
+  const { warnings, ...mesh } = await files.readMesh(content.bytes, `${content.stem}.${kind}`);
+  return { items: [newItem(meshKind, single(mesh))], warnings };
 }
 
 /** The mesh in single precision, as it is drawn. */
