@@ -79,6 +79,7 @@ function placeIn(pool: Pool): MeshPlace {
     weld: (mesh, { signal, ...budget }) => pool.call('weldMesh', [bare(mesh), budget], { signal }),
     find: (mesh, { signal, ...budget }) => pool.call('findHoles', [bare(mesh), budget], { signal }),
     crossings: (mesh, { signal, ...budget }) => pool.call('findCrossings', [bare(mesh), budget], { signal }),
+    carryOn: (work, { signal, ...budget }) => pool.call('carryOn', [work, budget], { signal }),
     async open(given, { signal, ...budget }) {
       const mesh: PooledMesh = { name: ++names, copy: () => ({ positions: given.positions.slice(), faces: given.faces.slice() }) };
       const input = { name: mesh.name };
