@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/atan2.h"
+#include "base/sort.h"
 
 namespace sf {
 namespace {
@@ -25,7 +26,7 @@ void halve(uint32_t* items, uint32_t count, Vec3 size, PlaceOf placeOf) {
   double Vec3::*const axis = size.x >= size.y && size.x >= size.z ? &Vec3::x
                              : size.y >= size.z                   ? &Vec3::y
                                                                   : &Vec3::z;
-  std::nth_element(items, items + count / 2, items + count, [&](uint32_t i, uint32_t j) {
+  sf::select(items, items + count / 2, items + count, [&](uint32_t i, uint32_t j) {
     const double a = placeOf(i).*axis, b = placeOf(j).*axis;
     return a != b ? a < b : i < j;
   });
