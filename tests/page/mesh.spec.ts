@@ -339,7 +339,7 @@ test('creases: go on through a hole, unless they are not to', async ({ quietPage
   /** Whether the patch has the cube's edge: vertices on it, and nowhere else. */
   const hasEdge = async (): Promise<boolean> => {
     expect(await stateOf(page)).toMatchObject({ openEdges: 0 });
-    const points = await page.evaluate(() => Array.from(window.__meshes?.patches[0].positions ?? []));
+    const points = await page.evaluate(() => Array.from(window.__meshes?.patches[0].added.positions ?? []));
     const onEdge = points.filter((x, i) => i % 3 === 0 && Math.abs(x - 1) < 1e-6 && Math.abs(points[i + 2] - 1) < 1e-6);
     expect(onEdge).toHaveLength(points.length / 3);
     return onEdge.length > 3;
@@ -365,7 +365,7 @@ test('colours of vertices: on the mesh and on patches, or not', async ({ quietPa
   await page.waitForFunction(() => window.__meshes?.document.name === 'Painted knot');
   await page.getByRole('button', { name: 'Fill all', exact: true }).click();
   expect(await stateOf(page)).toMatchObject({ openEdges: 0 });
-  const strange = await page.evaluate(() => window.__meshes?.patches.filter(({ attributes, positions }) => {
+  const strange = await page.evaluate(() => window.__meshes?.patches.filter(({ added: { attributes, positions } }) => {
     const color = attributes?.color;
     return color?.size !== 3 || color.data.length !== positions.length || color.data.some((x) => !(x >= 0 && x <= 1));
   }).length);
