@@ -122,6 +122,14 @@ describe('attributes of vertices', () => {
     }
   });
 
+  test('in a draft, with numbers that are not finite: those are left out, and the others kept', () => {
+    for (const x of [NaN, Infinity]) {
+      const broken = { ...color, data: color.data.map((each, i) => (i === 7 ? x : each)) };
+      expect(meshKind.read({ positions, faces, attributes: { color: broken, uv } })).toEqual({ positions, faces, attributes: { uv } });
+      expect(meshKind.read({ positions, faces, attributes: { color: broken } })).toEqual({ positions, faces });
+    }
+  });
+
   test('welded: those of the first vertex at each place', () => {
     const { attributes } = weld({ positions, faces, attributes: { color, uv } });
     const kept = (data: Float32Array, size: number) => [0, 1, 2, 4].flatMap((v) => [...data.subarray(size * v, size * (v + 1))]);
