@@ -26,7 +26,7 @@ export function readAttributes(saved: unknown, vertices: number): Attributes | n
     if (!(data instanceof Float32Array) || !Number.isInteger(size) || (size as number) <= 0) return false;
     return data.length === (size as number) * vertices && data.every(Number.isFinite);
   });
-  return sound.length > 0 ? (Object.fromEntries(sound) as Attributes) : null;
+  return sound.length > 0 ? Object.fromEntries(sound) : null;
 }
 
 /** Those of some vertices, in an order of their own. */
