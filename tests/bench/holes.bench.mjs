@@ -292,6 +292,7 @@ if (isThere) {
     found.meshes.push(measure(each));
     console.log(row(found.meshes.at(-1), bestPeer(peers, each.name)));
   }
+  found.peers = peers;
   if (chosen.length > 1) {
     console.log(`\n${summaryLines(found.meshes, peers).join('\n')}`);
     console.log(`\n${left('peers, as recorded', 32)}${right('groups', 9)}${right('attached', 9)}${right('wrong', 6)}${right('closed', 8)}${right('pairs', 8)}${right('median', 9)}${right('mean', 9)}${right('bunny2', 10)}`);

@@ -2,7 +2,7 @@
 import { fillHoles, findHoles, load, type FillOptions, type FillResult, type MeshLike } from 'soapfilm';
 import { createWorker, type Film } from 'soapfilm/worker';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
-import { areaOfNew, openEdges, together, type Mesh } from '../support/meshes.js';
+import { areaOfNew, openEdges, together, turned, type Mesh } from '../support/meshes.js';
 
 let film: Film;
 beforeAll(async () => {
@@ -23,12 +23,12 @@ function disc(x: number, y: number): Mesh {
  * A plate with a hole into which a long tongue reaches, and two islands on either side of it: no sphere through the ends
  * of a long side of the tongue is without other vertices, so no Delaunay triangle has such a side.
  */
-function plate(): Mesh {
+function plate(second = disc(5, 6)): Mesh {
   const hole = [[0, 0], [12, 0], [12, 10], [0, 10], [0, 5.5], [10, 5.5], [10, 4.5], [0, 4.5]];
   const outside = [[-3, -3], [15, -3], [15, 13], [-3, 13]];
   const faces = [8, 9, 1, 8, 1, 0, 9, 10, 2, 9, 2, 1, 10, 11, 3, 10, 3, 2, 8, 0, 7, 8, 7, 4, 8, 4, 3, 8, 3, 11, 7, 6, 5, 7, 5, 4];
   const frame = { positions: Float64Array.from([...hole, ...outside].flatMap(([x, y]) => [x, y, 0])), faces: Uint32Array.from(faces) };
-  return together(frame, disc(5, 4), disc(5, 6));
+  return together(frame, disc(5, 4), second);
 }
 
 const kPlate = plate();
@@ -123,6 +123,28 @@ describe('faces along a rim that had to be split', () => {
     expect(holes.map(({ status }) => status)).toEqual(['filled', 'filled']);
     expectWhole(mesh);
     expect(area(mesh)).toBeCloseTo(kArea + 6 * 16, 9);
+  });
+
+  test('of two holes: both, or the one that can be filled; the other says what is wrong with it', async () => {
+    const far = ({ positions, faces }: Mesh): Mesh => ({ positions: positions.map((x, i) => (i % 3 === 2 ? x + 50 : x)), faces });
+    const groups = (mesh: Mesh): number[][] => {
+      const loops = findHoles(mesh).loops.map(({ vertices }, i) => ({ i, first: Math.min(...vertices), size: vertices.length }));
+      const half = mesh.positions.length / 6;
+      const inside = loops.filter(({ size }) => size !== 4);
+      return [inside.filter(({ first }) => first < half).map(({ i }) => i), inside.filter(({ first }) => first >= half).map(({ i }) => i)];
+    };
+    const good = together(kPlate, far(kPlate));
+    const both = fillHoles(good, { ...options, groups: groups(good) });
+    expect(both.holes.map(({ status }) => status)).toEqual(['filled', 'filled']);
+    expect(both.splitFaces.map(({ face }) => face).sort((a, b) => a - b)).toEqual([10, 11, 30, 31]);
+    expect(openEdges(both.mesh.faces)).toHaveLength(8);
+    // An island that is inside out.
+    const bad = together(kPlate, far(plate(turned(disc(5, 6)))));
+    const one = fillHoles(bad, { ...options, groups: groups(bad) });
+    expect(one.holes.map(({ status, reason }) => [status, reason])).toEqual([['filled', undefined], ['failed', 'opposed-rims']]);
+    expect(one.splitFaces.map(({ face }) => face).sort((a, b) => a - b)).toEqual(kTongue);
+    expect(one.mesh.faces.slice(3 * 30, 3 * 32)).toEqual(bad.faces.slice(3 * 30, 3 * 32));
+    expect(await film.fillHoles(bad, { ...options, groups: groups(bad) })).toEqual(one);
   });
 
   test('in a worker: the same', async () => {

@@ -213,6 +213,18 @@ describe('broken meshes', () => {
     expect(areaOfNew(fillHoles(slit))).toBeLessThan(1e-12);
   });
 
+  test('sides that touch where faces are already: no face and no edge comes once more', () => {
+    const positions = Float64Array.of(0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0);
+    for (const faces of [Uint32Array.of(0, 1, 2, 0, 2, 3), Uint32Array.of(0, 1, 2), Uint32Array.of(0, 1, 3, 1, 2, 3)]) {
+      for (const points of [positions, Float32Array.from(positions, (x, i) => (i % 3 === 0 ? 1e9 : 0) + x)]) {
+        const { mesh, holes } = fillHoles({ positions: points, faces }, { fillOpenRims: true });
+        expect([...directedEdges(mesh.faces).values()].every((count) => count === 1)).toBe(true);
+        expect(new Set(Array.from({ length: mesh.faces.length / 3 }, (_, f) => mesh.faces.slice(3 * f, 3 * f + 3).sort().join())).size).toBe(mesh.faces.length / 3);
+        expect(holes).toHaveLength(1);
+      }
+    }
+  });
+
   test('places of defects: are the faces, edges and vertices at fault', () => {
     const last = kPierced.faces.length / 3;
     const placeOf = (mesh: Mesh, kind: DefectKind) => findHoles(mesh).defects.find((defect) => defect.kind === kind);

@@ -5,7 +5,7 @@
 //   --draw     draws them from the last results
 // npm run bench -- polygons [filter… | --figures]: triangulators of polygons, ours and others; with --figures
 // all cases, and the README's table of them anew.
-// npm run bench -- holes [words…]: holes of meshes; of those in ../shared/data/holes, if there are any.
+// npm run bench -- holes [words… | --figures]: holes of meshes; of those in ../shared/data/holes, if there are any.
 import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { availableParallelism, loadavg } from 'node:os';
 import path from 'node:path';
@@ -24,6 +24,7 @@ import {
   summary,
   transferLines,
 } from '../../tests/bench/report.mjs';
+import { holeTable } from '../../tests/bench/hole_report.mjs';
 import { polygonTable } from '../../tests/bench/polygon_report.mjs';
 import { buildLibrary, buildPreset } from './build.mjs';
 import { Failure, buildRoot, main, root, run, say } from './run.mjs';
@@ -225,10 +226,15 @@ async function measureHoles(words) {
   await buildLibrary();
   mkdirSync(folder, { recursive: true });
   const file = path.join(folder, 'holes.json');
+  const wanted = words.filter((word) => word !== '--figures');
   // In a clone, and in a worktree.
   const meshes = ['../shared', '../../shared'].map((shared) => path.join(root, shared, 'data/holes')).find(existsSync);
-  await run(process.execPath, ['--stack-size=4000', path.join(bench, 'holes.bench.mjs'), meshes ?? '-', file, ...words]);
+  await run(process.execPath, ['--stack-size=4000', path.join(bench, 'holes.bench.mjs'), meshes ?? '-', file, ...wanted]);
   say(`\nWritten: ${path.relative(root, file)}`);
+  if (words.length === wanted.length) return;
+  if (wanted.length > 0 || meshes === undefined) throw new Failure('The table is of all meshes of ../shared/data/holes: npm run bench -- holes --figures');
+  intoReadme('npm run bench -- holes --figures', holeTable(JSON.parse(readFileSync(file, 'utf8'))));
+  say('Written: README.md');
 }
 
 await main(async () => {

@@ -69,7 +69,7 @@ export class PolygonEditor {
    * @throws SoapfilmError `disposed`; `crashed` if it is lost
    */
   alive(): number {
-    return this.#session.number;
+    return this.#session.alive();
   }
 
   triangles(): Uint32Array {

@@ -31,6 +31,16 @@ export interface Budget extends Limits {
   readonly onProgress?: ProgressListener | undefined;
 }
 
+/** A listener that tells another one the share of the work alone. */
+export function fractionsFor(onProgress: ((fraction: number) => void) | undefined): ProgressListener | undefined {
+  return (
+    onProgress &&
+    ((fraction): void => {
+      onProgress(fraction);
+    })
+  );
+}
+
 /** What a call has taken and given. */
 export interface Timed<T> {
   readonly value: T;
@@ -102,9 +112,13 @@ export const computeOpen = (mesh: NamedMesh, budget: Budget): Timed<HolesArrays>
 
 function keep({ name, mesh }: NamedMesh, groups: boolean, budget: Budget): Timed<HolesArrays> {
   if (kept) forgetMesh(kept.name);
-  const opened = findIn(callKept, mesh as BareMesh, { keeps: true, groups }, budget);
-  kept = { name, session: opened.value.session[0] };
-  return opened;
+  try {
+    const opened = findIn(callKept, mesh as BareMesh, { keeps: true, groups }, budget);
+    kept = { name, session: opened.value.session[0] };
+    return opened;
+  } finally {
+    if (!kept) renewHome();
+  }
 }
 
 /** Fills holes of a mesh that stays open in this thread; after an error none does. */
@@ -125,7 +139,12 @@ export function forgetMesh(name: number): void {
   if (kept?.name !== name) return;
   const { session } = kept;
   kept = undefined;
-  // Memory of an instance never shrinks.
-  if (keptHome.lost || isLarge(keptHome)) keptHome = new Home('meshes');
-  else callKept(kClose, [session], () => undefined, {});
+  if (!renewHome()) callKept(kClose, [session], () => undefined, {});
+}
+
+/** Gives up an instance that is lost, or large: memory of an instance never shrinks. Whether it did. */
+function renewHome(): boolean {
+  const isNeeded = keptHome.lost || isLarge(keptHome);
+  if (isNeeded) keptHome = new Home('meshes');
+  return isNeeded;
 }

@@ -1,6 +1,6 @@
 // smoothSurface, once the arguments are checked: asks the core. Threads need only this half.
 import { packSmoothSettings, readSmoothArrays, type SmoothArrays } from './border.js';
-import { argumentsOf, type BareMesh } from './compute_holes.js';
+import { argumentsOf, fractionsFor, type BareMesh } from './compute_holes.js';
 import { meshError } from './messages.js';
 import type { Limits } from './options.js';
 import { callCore, kDefaultMemoryBytes, shared } from './runtime.js';
@@ -11,10 +11,11 @@ export interface SmoothWork extends Limits {
   /** Vertices that stay. */
   readonly fixed: Uint32Array;
   readonly boundaryNormals: Float64Array | undefined;
+  readonly onProgress?: (fraction: number) => void;
 }
 
 export function computeSmooth(surface: BareMesh, work: SmoothWork): SmoothArrays {
-  const { settings, fixed, boundaryNormals: normals, maxSeconds, maxMemoryBytes: maxBytes = kDefaultMemoryBytes } = work;
+  const { settings, fixed, boundaryNormals: normals, maxSeconds, maxMemoryBytes: maxBytes = kDefaultMemoryBytes, onProgress } = work;
   const args = [
     ...argumentsOf(surface),
     fixed,
@@ -23,5 +24,10 @@ export function computeSmooth(surface: BareMesh, work: SmoothWork): SmoothArrays
     normals ? normals.length / 3 : 0,
     packSmoothSettings({ ...settings, maxBytes }),
   ];
-  return callCore(shared.meshes, 'sf_smooth_surface', args, readSmoothArrays, { maxSeconds, explain: meshError }).arrays;
+  const watch = {
+    maxSeconds,
+    explain: meshError,
+    onProgress: fractionsFor(onProgress),
+  };
+  return callCore(shared.meshes, 'sf_smooth_surface', args, readSmoothArrays, watch).arrays;
 }

@@ -1,12 +1,13 @@
 // Finding and filling holes, step by step: the same here and in `soapfilm/worker`. The caller's half.
 import { seamsOf, weldedAttributes, type Seams } from './attributes.js';
 import type { FillArrays, HolesArrays } from './border.js';
-import type { BareMesh, Budget, FlatMesh, PatchWork, Timed } from './compute_holes.js';
+import { fractionsFor, type BareMesh, type Budget, type FlatMesh, type PatchWork, type Timed } from './compute_holes.js';
 import { closePatches, withCrossings, type Patches } from './hole_crossings.js';
 import { partListeners, partsOf, planAgain, planOf, type FillPlan } from './hole_plan.js';
 import { filledOf, patchesOf, reportOf, type GivenMesh } from './hole_results.js';
 import { joined, splitRims, type RimSplits, type SplitMesh } from './hole_splits.js';
 import { limitsOf } from './options.js';
+import { tellLast } from './report.js';
 import { wait, type Answer, type Steps } from './steps.js';
 import type { FillOptions, FillResult, HoleOptions, HoleReport, ProgressListener } from './types.js';
 
@@ -14,7 +15,6 @@ import type { FillOptions, FillResult, HoleOptions, HoleReport, ProgressListener
 export interface OpenMesh {
   /** How many parts of work can be done at once. */
   readonly size: number;
-  readonly holes: HolesArrays;
   /** Fills holes, part by part or at once. */
   readonly fill: (parts: readonly PatchWork[], budget: CallBudget, listeners: readonly (ProgressListener | undefined)[]) => Answer<Timed<FillArrays>[]>;
   readonly close: () => void;
@@ -30,7 +30,7 @@ export interface MeshPlace {
   weld(mesh: BareMesh, budget: CallBudget & { readonly weld: number }): Answer<Timed<BareMesh & { readonly vertexMap: Uint32Array }>>;
   find(mesh: BareMesh, budget: CallBudget): Answer<Timed<HolesArrays>>;
   /** The mesh must not change. */
-  open(mesh: BareMesh, budget: CallBudget): Answer<Timed<OpenMesh>>;
+  open(mesh: BareMesh, budget: CallBudget): Answer<Timed<{ readonly open: OpenMesh; readonly holes: HolesArrays }>>;
   crossings(mesh: BareMesh, budget: CallBudget): Answer<Timed<Uint32Array>>;
 }
 
@@ -45,17 +45,29 @@ export interface OpenHoles extends GivenMesh {
 export function* reportSteps(place: MeshPlace, given: FlatMesh, options: HoleOptions, signal?: AbortSignal): Steps<HoleReport> {
   const limits = { ...limitsOf(options), signal };
   const { mesh, vertexMap, seconds } = yield* weldSteps(place, given, options.weld, limits);
-  const { value } = yield* wait(place.find(mesh, { ...limits, spentSeconds: seconds }));
-  return reportOf(value, vertexMap);
+  const { value } = yield* wait(place.find(mesh, { ...limits, spentSeconds: seconds, onProgress: fractionsFor(options.onProgress) }));
+  const report = reportOf(value, vertexMap);
+  tellLast(() => options.onProgress?.(1));
+  return report;
 }
 
 /** Welds the mesh if that is asked for, and opens it. */
-export function* openSteps(place: MeshPlace, given: FlatMesh, options: HoleOptions, signal?: AbortSignal): Steps<OpenHoles> {
+export function* openSteps(
+  place: MeshPlace,
+  given: FlatMesh,
+  options: Omit<HoleOptions, 'onProgress'>,
+  signal?: AbortSignal,
+  onProgress?: HoleOptions['onProgress'],
+): Steps<OpenHoles> {
   const limits = { ...limitsOf(options), signal };
   const { mesh, vertexMap, seams, seconds } = yield* weldSteps(place, given, options.weld, limits);
-  const opened = yield* wait(place.open(mesh, { ...limits, spentSeconds: seconds }));
-  return { mesh, seams, open: opened.value, report: reportOf(opened.value.holes, vertexMap), seconds: seconds + opened.seconds };
+  const opened = yield* wait(place.open(mesh, { ...limits, spentSeconds: seconds, onProgress: fractionsFor(onProgress) }));
+  const { open, holes } = opened.value;
+  const found = { mesh, seams, open, report: reportOf(holes, vertexMap), seconds: seconds + opened.seconds };
+  tellLast(() => onProgress?.(1));
+  return found;
 }
+
 
 interface Welded {
   readonly mesh: FlatMesh;
@@ -82,7 +94,7 @@ export function* fillSteps(place: MeshPlace, given: OpenHoles, options: FillOpti
   let { patches } = filled;
   let split: SplitMesh = { mesh: given.mesh, splitFaces: [] };
   let spentSeconds = spent + filled.seconds;
-  for (let { splits } = patches; splits.size > 0;) {
+  for (let { splits } = patches, round = 0; splits.size > 0 && round < kMostRounds; round++) {
     const again = yield* splitSteps(place, given, plan, splits, options, { ...limits, spentSeconds });
     spentSeconds += again.seconds;
     if (again.done.length === splits.size) {
@@ -120,6 +132,9 @@ function* patchSteps(
   return { patches, seconds: Math.max(0, ...filled.map(({ seconds }) => seconds)) };
 }
 
+/** How often holes are filled again whose rims were split: each time takes a whole mesh. */
+const kMostRounds = 3;
+
 interface Refilled {
   readonly split: SplitMesh;
   /** Of the split mesh. */
@@ -139,10 +154,11 @@ function* splitSteps(
   budget: CallBudget,
 ): Steps<Refilled> {
   const split = splitRims(given.mesh, [...splits.values()].flat());
-  const { value: open, seconds: finding } = yield* wait(place.open(split.mesh, budget));
+  const { value, seconds: finding } = yield* wait(place.open(split.mesh, budget));
+  const { open, holes } = value;
   try {
     const { single, positions } = given.mesh;
-    const again = planAgain(plan, reportOf(open.holes), positions.length / 3, splits, options, single);
+    const again = planAgain(plan, reportOf(holes), positions.length / 3, splits, options, single);
     const { patches, seconds } = yield* patchSteps(open, split.mesh, again, { ...budget, spentSeconds: (budget.spentSeconds ?? 0) + finding });
     const done = again.todo.filter((g) => patches.holes[g].status !== 'failed');
     return { split, patches, done, seconds: finding + seconds };

@@ -40,7 +40,7 @@ export function flattenMesh(mesh: unknown, own: boolean, argument: 'mesh' | 'sur
 /** Options of `fillHoles`, checked, without those that were left out. @throws SoapfilmError `bad-option`, `bad-weights` */
 export function fillOptionsOf(given: Given<FillOptions>): FillOptions {
   const { holes, groups, perHole, fillOpenRims, maxVertices, maxLength, output, onProgress, maxSecondsPerHole } = given;
-  const checked: { -readonly [K in keyof FillOptions]: unknown } = { ...holeOptionsOf(given), ...patchOptionsOf(given) };
+  const checked: { -readonly [K in keyof FillOptions]: unknown } = { ...openingOptionsOf(given), ...patchOptionsOf(given) };
   if (holes !== undefined && holes !== 'all') checked.holes = indicesOf('holes', holes);
   if (groups !== undefined) checked.groups = listOf('groups', groups, (group, name) => indicesOf(name, group, 1));
   if (perHole !== undefined) checked.perHole = perHoleOf(perHole);
@@ -53,8 +53,18 @@ export function fillOptionsOf(given: Given<FillOptions>): FillOptions {
   return checked as FillOptions;
 }
 
-/** Options that finding and filling have. @throws SoapfilmError `bad-option` */
+/** Options of `findHoles` and of sessions, checked, without those that were left out. @throws SoapfilmError `bad-option` */
 export function holeOptionsOf(given: Given<HoleOptions>): HoleOptions {
+  return { ...openingOptionsOf(given), ...listenerOf(given) };
+}
+
+/** The listener among options, checked. @throws SoapfilmError `bad-option` */
+export function listenerOf({ onProgress }: Given<Pick<HoleOptions, 'onProgress'>>): Pick<HoleOptions, 'onProgress'> {
+  return functionOf('onProgress', onProgress) === undefined ? {} : { onProgress: onProgress as HoleOptions['onProgress'] & object };
+}
+
+/** Options that finding and filling have. @throws SoapfilmError `bad-option` */
+function openingOptionsOf(given: Given<Omit<HoleOptions, 'onProgress'>>): HoleOptions {
   const { weld } = given;
   return { ...limitsOf(given), ...(weld !== undefined && { weld: amountOf('weld', weld, Number.MAX_VALUE) }) };
 }
@@ -107,7 +117,7 @@ export function indicesOf(name: string, value: unknown, least = 0): number[] {
     if (isIndex(item)) return item;
     throw mustBe('bad-option', place, 'a whole number and not negative', item);
   });
-  if (list.length < least) throw mustBe('bad-option', name, 'an array with numbers of loops', value);
+  if (list.length < least) throw mustBe('bad-option', name, 'an array of at least one number of a loop', value);
   if (new Set(list).size < list.length) throw new SoapfilmError('bad-option', `\`${name}\` has a number twice`);
   return list;
 }

@@ -30,8 +30,10 @@ export function planOf(report: HoleReport, options: FillOptions, single: boolean
   if (named !== 'all') checkNumbers('holes', named, groups.length, 'hole');
   checkNumbers('perHole', Object.keys(perHole).map(Number), groups.length, 'hole');
   const todo: number[] = [];
+  // Groups that the caller made are as good as named.
+  const isNamed = new Set(named !== 'all' ? named : given ? given.keys() : []);
   const holes = groups.map((group, g): FilledHole => {
-    const passed = whyNot(g, group, report, options);
+    const passed = whyNot(group, report, options, named !== 'all', isNamed.has(g));
     if (passed === undefined) todo.push(g);
     return { ...kNothing, group: g, status: 'skipped', intersections: new Uint32Array(), ...passed };
   });
@@ -164,13 +166,13 @@ function givenGroups(given: readonly (readonly number[])[], { loops, groups }: H
 
 /** Why a hole is not filled; undefined if it is. */
 function whyNot(
-  g: number,
   { loops, isOpenRim }: HoleGroup,
   report: HoleReport,
-  { holes = 'all', fillOpenRims = false, maxVertices = Infinity, maxLength = Infinity }: FillOptions,
+  { fillOpenRims = false, maxVertices = Infinity, maxLength = Infinity }: FillOptions,
+  areNamed: boolean,
+  isNamed: boolean,
 ): { readonly status: 'open-rim' | 'skipped'; readonly reason?: HoleReason } | undefined {
-  const isNamed = holes !== 'all' && holes.includes(g);
-  if (holes !== 'all' && !isNamed) return { status: 'skipped', reason: 'not-asked-for' };
+  if (areNamed && !isNamed) return { status: 'skipped', reason: 'not-asked-for' };
   if (isOpenRim && !fillOpenRims && !isNamed) return { status: 'open-rim' };
   const vertices = loops.reduce((sum, loop) => sum + report.loops[loop].vertices.length, 0);
   if (vertices > maxVertices) return { status: 'skipped', reason: 'too-many-vertices' };

@@ -98,20 +98,32 @@ function piecesOf([a, b, c]: Triangle, sides: Sides): Triangle[] {
  * @param second numbered on from the split mesh
  * @param groups those that are of `second`
  */
-export function joined(before: FlatMesh, { mesh }: SplitMesh, first: Patches, second: Patches, groups: readonly number[]): Patches {
+export function joined(before: FlatMesh, { mesh, splitFaces }: SplitMesh, first: Patches, second: Patches, groups: readonly number[]): Patches {
   const shifted = (from: number, by: number) => (number: number): number => (number < from ? number : number + by);
   const [oldVertices, oldFaces] = [before.positions.length / 3, before.faces.length / 3];
   const [vertices, faces] = [mesh.positions.length / 3, mesh.faces.length / 3];
   const faceOfFirst = shifted(oldFaces, faces - oldFaces);
   const faceOfSecond = shifted(faces, first.faces.length / 3);
+  const pieces = new Map(splitFaces.map(({ face, first, count }) => [face, [face, ...Array.from({ length: count }, (_, i) => first + i)]]));
+  // Of a face that was whole, every piece is told: which of them is met, nobody has looked.
+  const piecesOf = (pairs: Uint32Array): Uint32Array => {
+    if (!pairs.some((face) => pieces.has(face))) return pairs;
+    const told: number[] = [];
+    for (let i = 0; i < pairs.length; i += 2) for (const met of pieces.get(pairs[i + 1]) ?? [pairs[i + 1]]) told.push(pairs[i], met);
+    return Uint32Array.from(told);
+  };
   const moved = (hole: FilledHole, faceOf: (face: number) => number): FilledHole => ({
     ...hole,
     faces: [faceOf(hole.faces[0]), faceOf(hole.faces[1])],
     intersections: hole.intersections.map(faceOf),
   });
+  const movedFirst = (hole: FilledHole): FilledHole => {
+    const { intersections, ...rest } = moved(hole, faceOfFirst);
+    return { ...rest, intersections: piecesOf(intersections) };
+  };
   const isSecond = new Set(groups);
   return {
-    holes: first.holes.map((hole, g) => (isSecond.has(g) ? moved(second.holes[g], faceOfSecond) : moved(hole, faceOfFirst))),
+    holes: first.holes.map((hole, g) => (isSecond.has(g) ? moved(second.holes[g], faceOfSecond) : movedFirst(hole))),
     positions: Float64Array.from([...first.positions, ...second.positions]),
     faces: Uint32Array.from([
       ...first.faces.map(shifted(oldVertices, vertices - oldVertices)),

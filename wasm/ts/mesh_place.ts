@@ -18,7 +18,7 @@ export const passingPlace: MeshPlace = {
       // If its instance is gone, so is the mesh.
       if (shared.meshes.core) call(kClose, [session], () => undefined, {});
     };
-    return { value: opened(holes, call, () => session, close), seconds };
+    return { value: { open: opened(call, () => session, close), holes }, seconds };
   },
 };
 
@@ -37,7 +37,7 @@ export function sessionPlace(owner: object): MeshPlace & { readonly session: Ses
       const close = (): void => {
         own.dispose();
       };
-      return { value: opened(holes, call, () => own.number, close), seconds };
+      return { value: { open: opened(call, () => own.alive(), close), holes }, seconds };
     },
     get session() {
       return session;
@@ -45,10 +45,9 @@ export function sessionPlace(owner: object): MeshPlace & { readonly session: Ses
   };
 }
 
-function opened(holes: HolesArrays, call: MeshCall, session: () => number, close: () => void): OpenMesh {
+function opened(call: MeshCall, session: () => number, close: () => void): OpenMesh {
   return {
     size: 1,
-    holes,
     fill: (parts, budget, listeners) => parts.map((work, i) => fillIn(call, session(), work, { ...budget, onProgress: listeners[i] })),
     close,
   };

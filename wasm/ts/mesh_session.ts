@@ -6,6 +6,7 @@ import { fillSteps, openSteps, type OpenHoles } from './hole_filling.js';
 import { fillOptionsOf, flattenMesh, holeOptionsOf } from './hole_input.js';
 import { passingPlace, sessionPlace } from './mesh_place.js';
 import { kHoleOptions, kSessionFillOptions, limitsOf, type Limits } from './options.js';
+import { copyOf } from './protocol.js';
 import type { Session } from './session.js';
 import { doAtOnce } from './steps.js';
 import type { FillResult, HoleOptions, HoleReport, MeshInput, SessionFillOptions } from './types.js';
@@ -22,6 +23,7 @@ import type { FillResult, HoleOptions, HoleReport, MeshInput, SessionFillOptions
  */
 export class MeshSession {
   readonly #opened: OpenHoles;
+  readonly #report: HoleReport;
   readonly #limits: Limits;
   readonly #session: Session;
 
@@ -30,9 +32,11 @@ export class MeshSession {
     const flat = flattenMesh(mesh, true);
     const given = holeOptionsOf(optionsOf(options, kHoleOptions));
     const place = sessionPlace(this);
-    this.#opened = doAtOnce(openSteps(place, flat, given));
+    this.#opened = doAtOnce(openSteps(place, flat, given, undefined, given.onProgress));
     this.#limits = limitsOf({ maxMemoryBytes: given.maxMemoryBytes });
     this.#session = place.session as Session;
+    // A copy: what the caller does to it is no matter.
+    this.#report = copyOf(this.#opened.report);
   }
 
   /** The number by which errors name the session, counted together with those of polygons. */
@@ -42,13 +46,13 @@ export class MeshSession {
 
   /** What `findHoles` finds. */
   get report(): HoleReport {
-    this.#check();
-    return this.#opened.report;
+    this.#session.alive();
+    return this.#report;
   }
 
   /** As `fillHoles` of the whole package. @throws SoapfilmError those of `fillHoles`; `disposed` */
   fillHoles(options: SessionFillOptions = {}): FillResult {
-    this.#check();
+    this.#session.alive();
     const given = fillOptionsOf(optionsOf(options, kSessionFillOptions));
     return doAtOnce(fillSteps(passingPlace, this.#opened, { ...this.#limits, ...given }));
   }
@@ -60,10 +64,5 @@ export class MeshSession {
 
   [kDispose](): void {
     this.dispose();
-  }
-
-  /** @throws SoapfilmError `disposed`, `crashed` */
-  #check(): number {
-    return this.#session.number;
   }
 }

@@ -61,7 +61,7 @@ export const kHoleFillOptions: Names<HoleFillOptions> = {
   creases: true,
 };
 
-export const kHoleOptions: Names<HoleOptions> = { ...kLimits, weld: true };
+export const kHoleOptions: Names<HoleOptions> = { ...kLimits, weld: true, onProgress: true };
 
 export const kSmoothOptions: Names<SmoothOptions> = {
   ...kLimits,
@@ -70,6 +70,7 @@ export const kSmoothOptions: Names<SmoothOptions> = {
   maxNewVertices: true,
   fixed: true,
   boundaryNormals: true,
+  onProgress: true,
 };
 
 export const kSessionFillOptions: Names<SessionFillOptions> = {

@@ -22,6 +22,8 @@ export interface CallWatch {
 /** A mesh that threads keep open between calls. */
 export interface PooledMesh {
   readonly name: number;
+  /** Whether nobody needs it any more, once the calls under way are done. */
+  isClosed: boolean;
   readonly copy: () => BareMesh;
 }
 
@@ -108,13 +110,16 @@ export class Pool {
     });
   }
 
-  /** Closes the mesh of that name where it is open. */
-  forget(name: number): void {
-    for (const member of this.#members) {
-      if (member.mesh !== name) continue;
-      member.mesh = undefined;
-      member.thread.post({ kind: 'forget', name }, []);
-    }
+  /** Closes a mesh where it is open, and where calls that wait will have opened it. */
+  forget(mesh: PooledMesh): void {
+    mesh.isClosed = true;
+    for (const member of this.#members) this.#close(member, mesh);
+  }
+
+  #close(member: Member, { name }: PooledMesh): void {
+    if (member.mesh !== name) return;
+    member.mesh = undefined;
+    member.thread.post({ kind: 'forget', name }, []);
   }
 
   dispose(): void {
@@ -244,6 +249,7 @@ export class Pool {
         break;
       case 'done':
         job.resolve(reply.value);
+        if (job.watch.mesh?.isClosed) this.#close(member, job.watch.mesh);
         if (job.thrown) report(job.thrown.reason);
         this.#release(member);
         break;

@@ -91,7 +91,7 @@ export class Session {
    * Its number in the core.
    * @throws SoapfilmError `disposed`; `crashed` if it is lost
    */
-  get number(): number {
+  alive(): number {
     if (this.#number === undefined) throw sessionDisposed(this.id);
     const { lost, culprit } = this.#room;
     if (!lost) return this.#number;

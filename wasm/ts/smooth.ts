@@ -3,6 +3,7 @@ import { optionsOf } from './check.js';
 import { computeSmooth } from './compute_smooth.js';
 import { flattenMesh } from './hole_input.js';
 import { kSmoothOptions } from './options.js';
+import { tellLast } from './report.js';
 import { smoothOf, smoothWorkOf } from './smooth_input.js';
 import type { MeshInput, SmoothOptions, SmoothSurface } from './types.js';
 
@@ -17,5 +18,8 @@ import type { MeshInput, SmoothOptions, SmoothSurface } from './types.js';
  */
 export function smoothSurface(surface: MeshInput, options: SmoothOptions = {}): SmoothSurface {
   const flat = flattenMesh(surface, false, 'surface');
-  return smoothOf(computeSmooth(flat, smoothWorkOf(optionsOf(options, kSmoothOptions), flat, false)));
+  const work = smoothWorkOf(optionsOf(options, kSmoothOptions), flat, false);
+  const smooth = smoothOf(computeSmooth(flat, work));
+  tellLast(() => work.onProgress?.(1));
+  return smooth;
 }

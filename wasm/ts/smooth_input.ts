@@ -4,7 +4,7 @@ import { amountOf, arrayOf, choiceOf, guarded, viewOf, type Given } from './chec
 import type { FlatMesh } from './compute_holes.js';
 import type { SmoothWork } from './compute_smooth.js';
 import { SoapfilmError } from './errors.js';
-import { indicesOf } from './hole_input.js';
+import { indicesOf, listenerOf } from './hole_input.js';
 import { limitsOf } from './options.js';
 import type { SmoothOptions, SmoothSurface } from './types.js';
 
@@ -30,6 +30,7 @@ export function smoothWorkOf(given: Given<SmoothOptions>, { positions }: FlatMes
     },
     fixed: fixed === undefined ? new Uint32Array() : fixedOf(fixed, positions.length / 3),
     boundaryNormals: boundaryNormals === undefined ? undefined : normalsOf(boundaryNormals, own),
+    ...listenerOf(given),
   };
 }
 

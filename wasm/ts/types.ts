@@ -470,6 +470,8 @@ export interface HoleOptions {
   readonly maxMemoryBytes?: number;
   /** Ends the work with `time-limit` after so many seconds. */
   readonly maxSeconds?: number;
+  /** Called now and then with the share of the work that is done. An error in it ends the work. */
+  readonly onProgress?: (fraction: number) => void;
 }
 
 /** How one hole is filled. */
@@ -483,7 +485,7 @@ export interface HoleFillOptions {
    * but 1 where the surroundings are rough, and 0 in flat places.
    */
   readonly fairness?: 0 | 1 | 2 | 'auto';
-  /** How much denser than its surroundings the patch is (Liepa's factor). Default √2; 0: no new vertices. */
+  /** How much denser than its surroundings the patch is (Liepa's factor). Default √2; 0: it is not refined, and has a new vertex only where an edge would be there twice without. */
   readonly density?: number;
   /** Most new vertices in one hole, those on creases included. Default: no limit. */
   readonly maxNewVertices?: number;
@@ -491,10 +493,10 @@ export interface HoleFillOptions {
   readonly creases?: boolean | number;
 }
 
-export interface FillOptions extends HoleFillOptions, HoleOptions {
+export interface FillOptions extends HoleFillOptions, Omit<HoleOptions, 'onProgress'> {
   /** Numbers of groups in the `HoleReport`, or `'all'` (default): all but open rims. Those named here are filled, open or not. */
   readonly holes?: readonly number[] | 'all';
-  /** Groups of loops in place of those found. Other loops stay open. */
+  /** Groups of loops in place of those found: these are filled, open rims or not. Other loops stay open. */
   readonly groups?: readonly (readonly number[])[];
   /** Options of single holes, by the numbers of their groups. */
   readonly perHole?: Readonly<Record<number, HoleFillOptions>>;
@@ -534,7 +536,8 @@ export type SessionFillOptions = Omit<FillOptions, 'weld'>;
  *
  * It is filled:
  * - `'stitched'`: in part at least by triangles without area, between vertices of the rim that are in one place.
- * - `'time-limit'`: by the best surface found within `maxSecondsPerHole`, which then is as coarse as its rims.
+ * - `'time-limit'`: by the best surface found within `maxSecondsPerHole`, which then is as coarse as its rims, and may
+ *   be `'self-intersecting'`.
  *
  * It was skipped, by an option of `fillHoles`:
  * - `'too-many-vertices'`: more than `maxVertices` are on its rims.

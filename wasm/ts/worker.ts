@@ -62,7 +62,7 @@ export interface CallOptions {
 /**
  * A pool of threads. Its functions are those of the package's main entry, but asynchronous. Calls start in
  * order, as threads become free. The input is checked and copied into flat arrays when the call is made;
- * these copies are transferred to the thread. Results are the caller's own. Errors are those of the
+ * these copies are transferred to the thread; of a mesh whose holes are filled, each thread at work gets one. Results are the caller's own. Errors are those of the
  * synchronous functions, `cancelled`, `disposed`, `crashed`, and `load-failed` if no thread can be started.
  * After any of them but `disposed`, the next call works.
  */

@@ -5,6 +5,8 @@ import { fillSteps, openSteps, reportSteps, type CallBudget, type MeshPlace } fr
 import { fillOptionsOf, flattenMesh, holeOptionsOf } from './hole_input.js';
 import { callOptionsOf, kFillOptions, kHoleOptions, kSessionFillOptions, kSmoothOptions, limitsOf } from './options.js';
 import type { Pool, PooledMesh } from './pool.js';
+import { copyOf } from './protocol.js';
+import { tellLast } from './report.js';
 import { newSessionId, sessionDisposed } from './session_id.js';
 import { smoothOf, smoothWorkOf } from './smooth_input.js';
 import { doInTime } from './steps.js';
@@ -40,7 +42,7 @@ export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
       const flat = flattenMesh(mesh, true);
       const [all, signal] = callOptionsOf(options, kHoleOptions);
       const given = holeOptionsOf(all);
-      const opened = await doInTime(openSteps(place, flat, given, signal));
+      const opened = await doInTime(openSteps(place, flat, given, signal, given.onProgress));
       const memory = limitsOf({ maxMemoryBytes: given.maxMemoryBytes });
       const id = newSessionId();
       let isOpen = true;
@@ -51,7 +53,8 @@ export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
       };
       const handle: MeshSessionHandle = {
         id,
-        report: opened.report,
+        // A copy: what the caller does to it is no matter.
+        report: copyOf(opened.report),
         async fillHoles(options = {}) {
           if (!isOpen) throw sessionDisposed(id);
           const [all, signal] = callOptionsOf(options, kSessionFillOptions);
@@ -66,7 +69,10 @@ export function meshCalls(pool: Pool): Pick<Film, MeshCalls> {
     async smoothSurface(surface, options = {}) {
       const flat = flattenMesh(surface, true, 'surface');
       const [given, signal] = callOptionsOf(options, kSmoothOptions);
-      return smoothOf(await pool.call('smoothSurface', [flat, smoothWorkOf(given, flat, true)], { signal }));
+      const { onProgress, ...work } = smoothWorkOf(given, flat, true);
+      const smooth = smoothOf(await pool.call('smoothSurface', [flat, work], { signal, onProgress }));
+      tellLast(() => onProgress?.(1));
+      return smooth;
     },
   };
 }
@@ -77,20 +83,21 @@ let names = 0;
 function placeIn(pool: Pool): MeshPlace {
   return {
     weld: (mesh, { signal, ...budget }) => pool.call('weldMesh', [bare(mesh), budget], { signal }),
-    find: (mesh, { signal, ...budget }) => pool.call('findHoles', [bare(mesh), budget], { signal }),
+    find: (mesh, { signal, onProgress, ...budget }) => pool.call('findHoles', [bare(mesh), budget], { signal, onProgress }),
     crossings: (mesh, { signal, ...budget }) => pool.call('findCrossings', [bare(mesh), budget], { signal }),
-    async open(given, { signal, ...budget }) {
-      const mesh: PooledMesh = { name: ++names, copy: () => ({ positions: given.positions.slice(), faces: given.faces.slice() }) };
+    async open(given, { signal, onProgress, ...budget }) {
+      const copy = (): BareMesh => ({ positions: given.positions.slice(), faces: given.faces.slice() });
+      const mesh: PooledMesh = { name: ++names, isClosed: false, copy };
       const input = { name: mesh.name };
-      const { value: holes, seconds } = await pool.call('openMesh', [input, budget], { signal, mesh });
+      const { value: holes, seconds } = await pool.call('openMesh', [input, budget], { signal, mesh, onProgress });
       const fill = (parts: readonly PatchWork[], { signal, ...budget }: CallBudget, listeners: readonly (ProgressListener | undefined)[]) =>
         together(signal, parts, (work, i, ends) =>
           pool.call('fillHoles', [input, { ...budget, work }], { signal: ends, mesh, onProgress: listeners[i] }),
         );
       const close = (): void => {
-        pool.forget(mesh.name);
+        pool.forget(mesh);
       };
-      return { value: { size: pool.size, holes, fill, close }, seconds };
+      return { value: { open: { size: pool.size, fill, close }, holes }, seconds };
     },
   };
 }

@@ -38,8 +38,10 @@ sf::Kept<OpenMesh>& openMeshes() {
 }
 
 bool find(sf::Work& work, sf::Charge& charge, Found& found) {
-  return sf::buildAdjacency(found.mesh, work, charge, found.adjacency) &&
-         sf::findRims(found.mesh, found.adjacency, work, charge, found.rims);
+  work.phase(0, 0.4);
+  if (!sf::buildAdjacency(found.mesh, work, charge, found.adjacency)) return false;
+  work.phase(0.4, 0.6);
+  return sf::findRims(found.mesh, found.adjacency, work, charge, found.rims);
 }
 
 SfResult* pack(const Found& found, sf::Grouping&& grouping) {
@@ -154,6 +156,7 @@ extern "C" SfStatus sf_find_holes(const double* positions, uint32_t vertexCount,
   sf::Grouping grouping;
   Found& found = opened->found;
   if (outcome.ok() && !find(work, charge, found)) outcome = {work.status()};
+  work.beginStage(0.6, 1);
   if (outcome.ok() && groups &&
       !sf::groupRims(mesh, found.adjacency, found.rims, work, charge, grouping))
     outcome = {work.status()};

@@ -510,9 +510,13 @@ Status HoleFiller::fillWhole(ArrayView<const uint32_t> rims, const FillOptions& 
       const Creases creases(mesh_, adjacency_, around_.fanStarts, around_.fans, options.crease);
       parts = partHole(mesh_, rims_, rims[0], creases);
     }
+    const size_t positions = newPositions_.size(), faces = newFaces_.size();
     bool isDone = false;
     const Status status = fillParts(parts, options, result, isDone);
-    if (status != Status::Ok || isDone) return status;
+    if (status != Status::Ok) return status;
+    if (isDone && (parts.triangles.empty() || isStitchedWell(rims[0], result.firstFace)))
+      return Status::Ok;
+    newPositions_.resize(positions), newFaces_.resize(faces);
     result = {};
   }
   Hole hole;
@@ -528,6 +532,30 @@ Status HoleFiller::fillWhole(ArrayView<const uint32_t> rims, const FillOptions& 
   if (result.status != FillStatus::Failed && areFans(hole, result.firstFace)) return status;
   newPositions_.resize(positions), newFaces_.resize(faces);
   return fillApart(hole, rims, options, result);
+}
+
+/// Whether the faces from `firstFace` on repeat no face of the mesh, and no edge gets more than two faces by them. Triangles that
+/// join vertices in one place may: these are joined as the rim runs, not as the mesh allows.
+bool HoleFiller::isStitchedWell(uint32_t rim, uint32_t firstFace) const {
+  using Edge = std::pair<uint32_t, uint32_t>;
+  const auto edgeOf = [](uint32_t a, uint32_t b) { return a < b ? Edge{a, b} : Edge{b, a}; };
+  std::vector<Edge> ofRim, ofFaces;
+  for (uint32_t e = rims_.starts[rim]; e < rims_.starts[rim + 1]; ++e)
+    ofRim.push_back(edgeOf(rims_.vertices[e], rims_.vertices[rims_.nextEdge(rim, e)]));
+  for (size_t i = 3 * (size_t(firstFace) - mesh_.faces.size() / 3); i < newFaces_.size(); i += 3) {
+    const uint32_t *f = &newFaces_[i], n = uint32_t(mesh_.positions.size() / 3);
+    if (f[1] < n && f[2] < n && isInFace(f[0], f[1], f[2])) return false;
+    for (int k = 0; k < 3; ++k) ofFaces.push_back(edgeOf(f[k], f[(k + 1) % 3]));
+  }
+  sf::sort(ofRim.begin(), ofRim.end(), std::less<Edge>());
+  sf::sort(ofFaces.begin(), ofFaces.end(), std::less<Edge>());
+  for (size_t i = 0, next; i < ofFaces.size(); i = next) {
+    for (next = i + 1; next < ofFaces.size() && ofFaces[next] == ofFaces[i];) ++next;
+    const auto [a, b] = ofFaces[i];
+    const bool isOfRim = std::binary_search(ofRim.begin(), ofRim.end(), ofFaces[i]);
+    if (next - i > (isOfRim ? 1 : 2) || (!isOfRim && isInFace(a, b, kNone))) return false;
+  }
+  return true;
 }
 
 /// Fills two rims that touch, but do not bound one surface there, each by itself.
@@ -568,7 +596,9 @@ Status HoleFiller::fillParts(const HoleParts& parts, const FillOptions& options,
   result.firstFace = faceCount();
   if (!charge_.add(sizeof(Vec3) * parts.points.size() + sizeof(uint32_t) * between.size()))
     return work_.status();
-  for (const Vec3 p : parts.points) newPositions_.insert(newPositions_.end(), {p.x, p.y, p.z});
+  for (const Vec3 p : parts.points)
+    for (const double x : {p.x, p.y, p.z})
+      newPositions_.push_back(options.inFloats ? double(float(x)) : x);
   newFaces_.insert(newFaces_.end(), between.begin(), between.end());
   Status status = Status::Ok;
   bool isGood = true, areOptimal = true;

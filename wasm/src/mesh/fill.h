@@ -104,6 +104,7 @@ class HoleFiller {
   Status fillApart(const Hole& hole, ArrayView<const uint32_t> rims, const FillOptions& options,
                    FilledHole& result);
   Status fillPart(Hole& hole, const FillOptions& options, FilledHole& result);
+  bool isStitchedWell(uint32_t rim, uint32_t firstFace) const;
   Status fillParts(const HoleParts& parts, const FillOptions& options, FilledHole& result,
                    bool& isDone);
   Status span(Hole& hole, const FillOptions& options, FilledHole& result);

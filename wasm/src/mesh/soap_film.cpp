@@ -53,7 +53,9 @@ Status relaxToFilm(LocalSurface& surface, const FilmOptions& options, Work& work
   if (status != Status::Ok) return status;
   const UnitBox box(surface.positions);
   const size_t n = surface.positions.size() / 3;
-  if (n <= surface.fixedVertices || box.isPoint()) return work.status();
+  // Nothing can move.
+  result.isMinimal = n <= surface.fixedVertices || box.isPoint();
+  if (result.isMinimal) return work.status();
   Charge charge(work);
   if (!charge.add(n * 350)) return work.status();
   std::vector<Vec3> at(n), before(n);
@@ -69,6 +71,7 @@ Status relaxToFilm(LocalSurface& surface, const FilmOptions& options, Work& work
   uint32_t harmonic = 0;
   bool isNewton = false;
   for (; result.steps < options.steps && !result.isMinimal; ++result.steps) {
+    work.setFraction(double(result.steps) / options.steps);
     flat.clear();
     for (const Vec3& p : at) flat.insert(flat.end(), {p.x, p.y, p.z});
     Laplacian laplacian;
