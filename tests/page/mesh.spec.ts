@@ -301,6 +301,50 @@ test('a patch that crosses something: is said and marked', async ({ quietPage: p
   expect(marked).toBeGreaterThan(0);
 });
 
+/** Two spheres about the x axis, each without the cap in which it would meet the other. */
+function cappedSpheres(): { points: number[][]; faces: Face[] } {
+  const [around, along] = [16, 9];
+  const points: number[][] = [];
+  const faces: Face[] = [];
+  for (const side of [-1, 1]) {
+    const pole = points.push([1.9 * side, 0, 0]) - 1;
+    const at = (ring: number, i: number): number => pole + 1 + around * (ring - 1) + (i % around);
+    const put = (a: number, b: number, c: number): void => { faces.push(side < 0 ? [a, b, c] : [a, c, b]); };
+    for (let ring = 1; ring <= along; ring++) {
+      const [away, radius] = [Math.cos((Math.PI * ring) / 13.5), Math.sin((Math.PI * ring) / 13.5)];
+      for (let i = 0; i < around; i++) {
+        const turn = (2 * Math.PI * i) / around;
+        points.push([side * (0.9 + away), radius * Math.cos(turn), radius * Math.sin(turn)]);
+        if (ring === 1) put(pole, at(1, i + 1), at(1, i));
+        else {
+          put(at(ring - 1, i), at(ring - 1, i + 1), at(ring, i));
+          put(at(ring - 1, i + 1), at(ring, i + 1), at(ring, i));
+        }
+      }
+    }
+  }
+  return { points, faces };
+}
+
+test('two patches that cross: neither is marked any more once the other one goes, and both are by undo', async ({ quietPage: page }) => {
+  await openMode(page);
+  await openFile(page, 'spheres.ply', plyOf(cappedSpheres()));
+  await page.waitForFunction(() => window.__meshes?.document.name === 'spheres');
+  await stateOf(page);
+  // The rims face each other, as the ends of a band do.
+  await page.getByRole('button', { name: /Hole 1/ }).first().click();
+  await page.getByRole('button', { name: 'Split' }).click();
+  await page.getByRole('button', { name: 'Fill all', exact: true }).click();
+  const words = page.getByText('it crosses something: marked in red');
+  await expect(words).toHaveCount(2);
+  await page.getByRole('button', { name: 'Leave hole 1' }).click();
+  await expect(words).toHaveCount(0);
+  const marked = () => page.evaluate(() => window.__meshes?.patches.map(({ crossing, crossed }) => crossing.length + crossed.length));
+  expect(await marked()).toEqual([0]);
+  await page.keyboard.press('Control+z');
+  await expect(words).toHaveCount(2);
+});
+
 /** A cube's surface of small squares, without those near the middle of one of its edges. */
 function tornCube(): { points: number[][]; faces: Face[] } {
   const [count, points, faces, numbers] = [16, [] as number[][], [] as Face[], new Map<string, number>()];
@@ -339,7 +383,7 @@ test('creases: go on through a hole, unless they are not to', async ({ quietPage
   /** Whether the patch has the cube's edge: vertices on it, and nowhere else. */
   const hasEdge = async (): Promise<boolean> => {
     expect(await stateOf(page)).toMatchObject({ openEdges: 0 });
-    const points = await page.evaluate(() => Array.from(window.__meshes?.patches[0].positions ?? []));
+    const points = await page.evaluate(() => Array.from(window.__meshes?.patches[0].added.positions ?? []));
     const onEdge = points.filter((x, i) => i % 3 === 0 && Math.abs(x - 1) < 1e-6 && Math.abs(points[i + 2] - 1) < 1e-6);
     expect(onEdge).toHaveLength(points.length / 3);
     return onEdge.length > 3;
@@ -365,7 +409,7 @@ test('colours of vertices: on the mesh and on patches, or not', async ({ quietPa
   await page.waitForFunction(() => window.__meshes?.document.name === 'Painted knot');
   await page.getByRole('button', { name: 'Fill all', exact: true }).click();
   expect(await stateOf(page)).toMatchObject({ openEdges: 0 });
-  const strange = await page.evaluate(() => window.__meshes?.patches.filter(({ attributes, positions }) => {
+  const strange = await page.evaluate(() => window.__meshes?.patches.filter(({ added: { attributes, positions } }) => {
     const color = attributes?.color;
     return color?.size !== 3 || color.data.length !== positions.length || color.data.some((x) => !(x >= 0 && x <= 1));
   }).length);

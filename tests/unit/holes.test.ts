@@ -460,6 +460,73 @@ describe('attributes', () => {
     expect(fillHoles(kTwoCaps).mesh.attributes).toBeUndefined();
   });
 
+  /** A sphere with a wide cap cut off, and colours at random. */
+  const wide = cut(sphere(16), (p) => angle(p, kUp) < 0.9);
+  const colours = (mesh: Mesh, seed: number): Record<string, MeshAttribute> => {
+    const random = new Random(seed);
+    return { colour: { data: Float32Array.from({ length: (4 * mesh.positions.length) / 3 }, () => random.unit()), size: 4 } };
+  };
+
+  test('every new vertex is the mean of its neighbours, on a large patch too', async () => {
+    console.log('seed 71');
+    const mesh = { ...wide, attributes: colours(wide, 71) };
+    const options: FillOptions = { density: 4, maxNewVertices: 20_000 };
+    const result = fillHoles(mesh, options);
+    const { faces, attributes } = result.mesh;
+    const { data } = attributes?.colour as MeshAttribute;
+    const { oldVertices: old, oldFaces } = result;
+    const total = data.length / 4;
+    expect(total - old).toBeGreaterThan(2000);
+    const [sums, counts] = [new Float64Array(4 * total), new Uint32Array(total)];
+    for (let f = 3 * oldFaces; f < faces.length; f += 3) {
+      for (let i = 0; i < 3; i++) {
+        for (const w of [faces[f + ((i + 1) % 3)], faces[f + ((i + 2) % 3)]]) {
+          counts[faces[f + i]]++;
+          for (let k = 0; k < 4; k++) sums[4 * faces[f + i] + k] += data[4 * w + k];
+        }
+      }
+    }
+    let most = 0;
+    for (let v = old; v < total; v++) {
+      for (let k = 0; k < 4; k++) most = Math.max(most, Math.abs(sums[4 * v + k] / counts[v] - data[4 * v + k]));
+    }
+    expect(most).toBeLessThan(1e-5);
+    expect(await film.fillHoles(mesh, options)).toEqual(result);
+  });
+
+  test('of a hole: the same to the bit, whatever else is filled', () => {
+    console.log('seed 73');
+    const mesh = { ...kTwoCaps, attributes: colours(kTwoCaps, 73) };
+    const both = fillHoles(mesh);
+    const { oldVertices, oldFaces } = both;
+    for (const hole of [0, 1]) {
+      const one = fillHoles(mesh, { holes: [hole] });
+      const { faces: [from, to] } = both.holes[hole];
+      const corners = both.mesh.faces.subarray(3 * from, 3 * to);
+      const single = one.mesh.faces.subarray(3 * oldFaces);
+      expect(single.length).toBe(corners.length);
+      corners.forEach((v, i) => {
+        const of = ({ mesh }: typeof one, u: number) => mesh.attributes?.colour.data.slice(4 * u, 4 * u + 4);
+        if (v >= oldVertices) expect(of(one, single[i])).toEqual(of(both, v));
+      });
+    }
+  });
+
+  test('the limits of the call hold for them too', async () => {
+    const names = Array.from({ length: 40 }, (_, i) => `a${i}`);
+    const data = new Float32Array((50 * wide.positions.length) / 3);
+    const mesh = { ...wide, attributes: Object.fromEntries(names.map((name) => [name, { data, size: 50 }])) };
+    const options: FillOptions = { maxMemoryBytes: 8e6 };
+    expect(fillHoles(wide, options).closed).toBe(true);
+    expect(errorOf(() => fillHoles(mesh, options)).code).toBe('out-of-memory');
+    expect((await rejectionOf(film.fillHoles(mesh, options))).code).toBe('out-of-memory');
+    expect(errorOf(() => fillHoles(mesh, { maxSeconds: 0 })).code).toBe('time-limit');
+    expect(fillHoles(mesh).closed).toBe(true);
+    const stop = new AbortController();
+    const cancelled = film.fillHoles(mesh, { density: 4, signal: stop.signal, onProgress: () => { stop.abort('enough'); } });
+    expect(await rejectionOf(cancelled)).toMatchObject({ code: 'cancelled', cause: 'enough' });
+  });
+
   test('named as what objects inherit: kept like others', async () => {
     const odd = { ...kTwoCaps, attributes: JSON.parse('{ "__proto__": 0, "constructor": 0 }') as Record<string, MeshAttribute> };
     for (const name of Object.keys(odd.attributes)) Object.defineProperty(odd.attributes, name, { value: attributes.one });

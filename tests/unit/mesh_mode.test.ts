@@ -9,7 +9,10 @@ import { areMeshSettings, kSettings, type MeshShape } from '../../web/src/modes/
 import { loopAt, noteRims, placeOf, rimsOf, wholeOf } from '../../web/src/modes/mesh/whole.ts';
 import { countTwins, weld } from '../../web/src/modes/mesh/weld.ts';
 import { wordsForDefect } from '../../web/src/modes/mesh/wording.ts';
+import { distanceOf, shareAlong, type Eye, type Spot } from '../../web/src/scene/eye.ts';
+import type { Point } from '../../web/src/shapes/vec.ts';
 import { newItem } from '../../web/src/state/document.ts';
+import { Random } from '../support/generators.js';
 
 beforeAll(() => load({ parts: ['meshes'] }));
 
@@ -69,6 +72,47 @@ describe('several meshes', () => {
 });
 
 describe('the kind', () => {
+  test('picking: the rim nearest to a place, by brute force', () => {
+    // Single triangles, each with a rim of its own, and a look along z.
+    const seed = 5;
+    const random = new Random(seed);
+    const { positions: p, faces: corners } = torus.shape();
+    const positions = Float32Array.from([...corners].flatMap((vertex) => [...p.subarray(3 * vertex, 3 * vertex + 3)]));
+    const shape: MeshShape = { positions, faces: Uint32Array.from(corners, (_, i) => i) };
+    const whole = wholeOf([newItem(meshKind, shape)]);
+    noteRims(whole, findHoles(whole));
+    const at = ([x, y]: readonly number[]) => ({ x: 100 * x, y: 100 * y, visible: true });
+    const axis: Point = [0, 0, 1];
+    const eye: Eye = {
+      project: at,
+      pixelSize: () => 0.01,
+      ray: (x, y) => ({ from: [x, y, 0], direction: axis }),
+      axes: () => ({ right: [1, 0, 0], up: [0, 1, 0], toViewer: axis }),
+    };
+    const { starts, vertices } = rimsOf(shape);
+    const distanceTo = (part: number, spot: Spot): number => {
+      const rim = [...vertices.subarray(starts[part], starts[part + 1])].map((vertex) => at(positions.subarray(3 * vertex, 3 * vertex + 2) as unknown as number[]));
+      return Math.min(...rim.map((a, i) => {
+        const b = rim[(i + 1) % rim.length];
+        const share = shareAlong(spot, a, b);
+        return distanceOf(spot, { x: a.x + share * (b.x - a.x), y: a.y + share * (b.y - a.y) });
+      }));
+    };
+    let hits = 0;
+    for (let i = 0; i < 60; i++) {
+      const spot = { x: random.range(-220, 220), y: random.range(-220, 220) };
+      const least = Math.min(...Array.from({ length: starts.length - 1 }, (_, part) => distanceTo(part, spot)));
+      const hit = meshKind.pick(shape, eye, spot, 2);
+      expect(hit !== null, `seed ${seed}, place ${i}`).toBe(least < 2);
+      if (hit === null) continue;
+      hits++;
+      expect(hit.distance, `seed ${seed}, place ${i}`).toBeCloseTo(least, 9);
+      expect(distanceTo(hit.part, spot), `seed ${seed}, place ${i}`).toBeCloseTo(least, 9);
+    }
+    expect(hits).toBeGreaterThan(10);
+    expect(hits).toBeLessThan(55);
+  });
+
   test('what was saved: is read if it is a mesh', () => {
     const shape: MeshShape = { positions: new Float32Array(9), faces: new Uint32Array([0, 1, 2]) };
     expect(meshKind.read(structuredClone(shape))).toEqual(shape);
@@ -119,6 +163,14 @@ describe('attributes of vertices', () => {
     expect(meshKind.read({ positions, faces, attributes: { color, uv } })).toEqual({ positions, faces, attributes: { color, uv } });
     for (const attributes of [5, { color: null }, { color: { ...color, size: 4 } }, { color: { data: [...color.data], size: 3 } }]) {
       expect(meshKind.read({ positions, faces, attributes })).toEqual({ positions, faces });
+    }
+  });
+
+  test('in a draft, with numbers that are not finite: those are left out, and the others kept', () => {
+    for (const x of [NaN, Infinity]) {
+      const broken = { ...color, data: color.data.map((each, i) => (i === 7 ? x : each)) };
+      expect(meshKind.read({ positions, faces, attributes: { color: broken, uv } })).toEqual({ positions, faces, attributes: { uv } });
+      expect(meshKind.read({ positions, faces, attributes: { color: broken } })).toEqual({ positions, faces });
     }
   });
 

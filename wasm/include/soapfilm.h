@@ -110,6 +110,9 @@ enum SfCrossingsArray { SF_CROSSINGS_ARRAYS(SF_ARRAY) SfCrossingsArrayCount };
 #define SF_ARRAY(type, name, meaning) SfWeld_##name,
 enum SfWeldArray { SF_WELD_ARRAYS(SF_ARRAY) SfWeldArrayCount };
 #undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SfCarry_##name,
+enum SfCarryArray { SF_CARRY_ARRAYS(SF_ARRAY) SfCarryArrayCount };
+#undef SF_ARRAY
 #define SF_ARRAY(type, name, meaning) SfFill_##name,
 enum SfFillArray { SF_FILL_ARRAYS(SF_ARRAY) SfFillArrayCount };
 #undef SF_ARRAY
@@ -251,6 +254,18 @@ SfStatus sf_fill_holes(uint32_t session, const uint32_t* groupStarts, uint32_t g
 
 /// Ends the session of that number, if there is one. A later session may get the number. Returns Ok.
 SF_API(sf_close_mesh) SfStatus sf_close_mesh(uint32_t session);
+
+/// Carries values of vertices on over faces: each that is not fixed gets the mean of its neighbours' values, in which
+/// a neighbour counts once for each face that both are in. Parts of them that have no fixed neighbour get 0.
+///   as for sf_find_holes, and
+///   fixedCount   the first vertices, which are fixed; at most all
+///   values       [size * fixedCount] theirs, finite; else NotFinite
+///   size         how many values a vertex has, from 1 to 2^30 - 1
+///   result       out: SF_CARRY_ARRAYS; null unless the status is Ok
+SF_API(sf_carry_on)
+SfStatus sf_carry_on(const double* positions, uint32_t vertexCount, const uint32_t* faces,
+                     uint32_t faceCount, uint32_t fixedCount, const double* values, uint32_t size,
+                     double maxBytes, SfPlace* where, SfResult** result);
 
 /// Smooths a surface between its boundary: a soap film, or a plate.
 ///   positions, vertexCount, triangles, triangleCount   manifold, oriented, with a boundary

@@ -248,6 +248,10 @@
 #define SF_CROSSINGS_ARRAYS(X) \
   X(uint32_t, pairs, "[2p] faces that intersect, the smaller first; at most some 10 000 pairs")
 
+/* sf_carry_on */
+
+#define SF_CARRY_ARRAYS(X) X(double, values, "[size * f] of the f vertices that are not fixed")
+
 /* sf_fill_holes */
 
 #define SF_FAIRING_CHOICES(X)  \

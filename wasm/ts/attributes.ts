@@ -1,6 +1,7 @@
-// Attributes of a mesh's vertices, such as colours, carried on over patches: harmonic, so that every new vertex is the
-// mean of its neighbours and those on the rim keep what they have.
+// Attributes of a mesh's vertices, such as colours, which go on over patches: harmonic, so that every new vertex is the
+// mean of its neighbours and those on the rim keep what they have. The core finds the values.
 import { entriesOf, fieldsOf, guarded, mustBe, viewOf } from './check.js';
+import type { BareMesh, CarryWork } from './compute_holes.js';
 import { SoapfilmError } from './errors.js';
 import type { MeshAttribute } from './types.js';
 
@@ -10,7 +11,7 @@ export type Attributes = Readonly<Record<string, MeshAttribute>>;
  * The attributes as they are, checked; copies where they must be.
  * @throws SoapfilmError `bad-attributes`
  */
-export function attributesOf(given: unknown, vertices: number, own: boolean): Attributes | undefined {
+export function checkedAttributes(given: unknown, vertices: number, own: boolean): Attributes | undefined {
   if (given === undefined) return undefined;
   const code = 'bad-attributes';
   const entries = entriesOf(given, 'mesh.attributes', code).map(([name, value]): [string, MeshAttribute] => {
@@ -68,88 +69,62 @@ function firstsOf(vertexMap: Uint32Array, count: number): Int32Array {
   return first;
 }
 
-/** A step that changes nothing by more than this share of what there is, is the last. */
-const kTolerance = 1e-5;
-const kMostSteps = 300;
+/**
+ * What the core needs to carry attributes on over patches: the faces, numbered anew, with the old vertices that are in
+ * them first. Undefined if there is nothing to carry.
+ * @param old the mesh that has the patches
+ * @param tails attributes of those of its vertices that come after `attributes`
+ */
+export function carryWorkOf(attributes: Attributes, tails: Attributes | undefined, old: BareMesh, patches: BareMesh): CarryWork | undefined {
+  const [oldVertices, added] = [old.positions.length / 3, patches.positions.length / 3];
+  const parts = Object.entries(attributes);
+  if (added === 0 || parts.length === 0) return undefined;
+  const numbers = new Map<number, number>();
+  for (const v of patches.faces) if (v < oldVertices && !numbers.has(v)) numbers.set(v, numbers.size);
+  const fixed = numbers.size;
+  const size = parts.reduce((sum, [, attribute]) => sum + attribute.size, 0);
+  const positions = new Float64Array(3 * (fixed + added));
+  const values = new Float64Array(fixed * size);
+  for (const [vertex, number] of numbers) {
+    positions.set(old.positions.subarray(3 * vertex, 3 * vertex + 3), 3 * number);
+    let at = number * size;
+    for (const [name, attribute] of parts) {
+      const count = attribute.data.length / attribute.size;
+      const [{ data }, v] = tails && vertex >= count ? [tails[name], vertex - count] : [attribute, vertex];
+      values.set(data.subarray(attribute.size * v, attribute.size * (v + 1)), at);
+      at += attribute.size;
+    }
+  }
+  positions.set(patches.positions, 3 * fixed);
+  const faces = patches.faces.map((v) => (v < oldVertices ? (numbers.get(v) as number) : v - oldVertices + fixed));
+  return { mesh: { positions, faces }, fixed, values, size };
+}
 
 /**
- * The attributes of old vertices and of `added` new ones, which the new faces name from `old` on.
- * @param faces `[3m]` the new faces only
+ * The attributes of a filled mesh, or of its vertices from `from` on.
+ * @param tails those of vertices on split rims
+ * @param carried of all attributes, one after the other for each new vertex
  */
-export function carriedOn(attributes: Attributes, old: number, added: number, faces: Uint32Array): Attributes {
-  const graph = neighboursOf(old, added, faces);
-  return mapped(attributes, ({ data, size }) => {
-    const all = new Float32Array(size * (old + added));
-    all.set(data);
-    for (let k = 0; k < size; k++) solve(all, size, k, graph);
-    return { data: all, size };
+export function filledAttributes(attributes: Attributes, tails: Attributes | undefined, carried: Float64Array, from: number): Attributes {
+  const total = Object.values(attributes).reduce((sum, { size }) => sum + size, 0);
+  const added = carried.length / total;
+  let channel = 0;
+  const filled = Object.entries(attributes).map(([name, { data, size }]): [string, MeshAttribute] => {
+    const old = data.subarray(size * from);
+    const tail = tails ? tails[name].data : new Float32Array();
+    const all = new Float32Array(old.length + tail.length + size * added);
+    all.set(old);
+    all.set(tail, old.length);
+    let at = old.length + tail.length;
+    for (let i = 0; i < added; i++) {
+      for (let k = 0; k < size; k++) all[at++] = carried[total * i + channel + k];
+    }
+    channel += size;
+    return [name, { data: all, size }];
   });
+  return Object.fromEntries(filled);
 }
 
-/** The vertices next to each new one; one that is next to it in two faces is there twice. */
-interface Graph {
-  /** How many old vertices there are. */
-  readonly old: number;
-  /** `[added + 1]` offsets into `neighbours`. */
-  readonly starts: Uint32Array;
-  readonly neighbours: Uint32Array;
-}
-
-function neighboursOf(old: number, added: number, faces: Uint32Array): Graph {
-  const starts = new Uint32Array(added + 1);
-  for (const v of faces) if (v >= old) starts[v - old + 1] += 2;
-  for (let i = 0; i < added; i++) starts[i + 1] += starts[i];
-  const next = starts.slice();
-  const neighbours = new Uint32Array(starts[added]);
-  for (let f = 0; f < faces.length; f += 3) {
-    for (let k = 0; k < 3; k++) {
-      const v = faces[f + k];
-      if (v < old) continue;
-      neighbours[next[v - old]++] = faces[f + ((k + 1) % 3)];
-      neighbours[next[v - old]++] = faces[f + ((k + 2) % 3)];
-    }
-  }
-  return { old, starts, neighbours };
-}
-
-/**
- * Number k of each new vertex: solves (degree - adjacency) x = sum of the old neighbours' numbers, by conjugate
- * gradients from 0.
- */
-function solve(all: Float32Array, size: number, k: number, { old, starts, neighbours }: Graph): void {
-  const added = starts.length - 1;
-  const x = new Float64Array(added);
-  const rest = new Float64Array(added);
-  for (let i = 0; i < added; i++) {
-    for (let at = starts[i]; at < starts[i + 1]; at++) if (neighbours[at] < old) rest[i] += all[size * neighbours[at] + k];
-  }
-  let square = rest.reduce((sum, r) => sum + r * r, 0);
-  const enough = square * kTolerance ** 2;
-  const way = rest.slice();
-  const image = new Float64Array(added);
-  for (let step = 0; step < kMostSteps && square > enough; step++) {
-    for (let i = 0; i < added; i++) {
-      image[i] = (starts[i + 1] - starts[i]) * way[i];
-      for (let at = starts[i]; at < starts[i + 1]; at++) if (neighbours[at] >= old) image[i] -= way[neighbours[at] - old];
-    }
-    const length = square / way.reduce((sum, w, i) => sum + w * image[i], 0);
-    let next = 0;
-    for (let i = 0; i < added; i++) {
-      x[i] += length * way[i];
-      rest[i] -= length * image[i];
-      next += rest[i] * rest[i];
-    }
-    const share = next / square;
-    for (let i = 0; i < added; i++) way[i] = rest[i] + share * way[i];
-    square = next;
-  }
-  for (let i = 0; i < added; i++) all[size * (old + i) + k] = x[i];
-}
-
-/** What the vertices from `old` on have. */
-export const tailsOf = (attributes: Attributes, old: number): Attributes =>
-  mapped(attributes, ({ data, size }) => ({ data: data.slice(size * old), size }));
-
-function mapped(attributes: Attributes, make: (attribute: MeshAttribute) => MeshAttribute): Attributes {
+export function mapped(attributes: Attributes, make: (attribute: MeshAttribute) => MeshAttribute): Attributes {
   return Object.fromEntries(Object.entries(attributes).map(([name, attribute]) => [name, make(attribute)]));
 }

@@ -528,6 +528,15 @@ export const readCrossingsArrays = (array: ArrayReader): CrossingsArrays => ({
   pairs: array(0, Uint32Array),
 });
 
+export interface CarryArrays {
+  /** [size * f] of the f vertices that are not fixed */
+  readonly values: Float64Array;
+}
+
+export const readCarryArrays = (array: ArrayReader): CarryArrays => ({
+  values: array(0, Float64Array),
+});
+
 export const kFairingChoices = ['none', 'bending', 'curvature', 'auto'] as const;
 
 export interface PatchSettings {

@@ -1,5 +1,5 @@
 // Meshes in the core, once the arguments are checked: asks it, and hands on its arrays. Threads need only this half.
-import { readCrossingsArrays, readFillArrays, readHolesArrays, readWeldArrays, type ArrayReader, type FillArrays, type HolesArrays } from './border.js';
+import { readCarryArrays, readCrossingsArrays, readFillArrays, readHolesArrays, readWeldArrays, type ArrayReader, type FillArrays, type HolesArrays } from './border.js';
 import { meshError } from './messages.js';
 import type { Limits } from './options.js';
 import { callCore, Home, isLarge, kDefaultMemoryBytes, shared, type CoreArgument, type Watch } from './runtime.js';
@@ -22,6 +22,17 @@ export interface PatchWork {
   readonly starts: Uint32Array;
   readonly loops: Uint32Array;
   readonly settings: Float64Array;
+}
+
+/** Values to be carried on over faces. */
+export interface CarryWork {
+  /** Vertices with known values first. */
+  readonly mesh: BareMesh;
+  /** How many these are. */
+  readonly fixed: number;
+  /** `size` for each of them. */
+  readonly values: Float64Array;
+  readonly size: number;
 }
 
 /** Limits of a call of several, and who hears of it. */
@@ -69,6 +80,13 @@ export function computeWeld(mesh: BareMesh, { weld, ...budget }: Budget & { read
 /** Pairs of faces of a mesh that intersect: [2p]. */
 export function computeCrossings(mesh: BareMesh, budget: Budget): Timed<Uint32Array> {
   return timed((watch, memory) => callShared('sf_find_crossings', [...argumentsOf(mesh), memory], readCrossingsArrays, watch).pairs, budget);
+}
+
+/** The values of the vertices that had none: `size` for each. */
+export function computeCarry({ mesh, fixed, values, size }: CarryWork, budget: Budget): Timed<Float64Array> {
+  const run = (watch: Omit<Watch<never>, 'onResult'>, memory: number): Float64Array =>
+    callShared('sf_carry_on', [...argumentsOf(mesh), fixed, values, size, memory], readCarryArrays, watch).values;
+  return timed(run, budget);
 }
 
 /** The holes of a mesh that is then forgotten. */

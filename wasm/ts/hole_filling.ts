@@ -1,7 +1,7 @@
 // Finding and filling holes, step by step: the same here and in `soapfilm/worker`. The caller's half.
-import { seamsOf, weldedAttributes, type Seams } from './attributes.js';
+import { carryWorkOf, seamsOf, weldedAttributes, type Seams } from './attributes.js';
 import type { FillArrays, HolesArrays } from './border.js';
-import { fractionsFor, type BareMesh, type Budget, type FlatMesh, type PatchWork, type Timed } from './compute_holes.js';
+import { fractionsFor, type BareMesh, type Budget, type CarryWork, type FlatMesh, type PatchWork, type Timed } from './compute_holes.js';
 import { closePatches, withCrossings, type Patches } from './hole_crossings.js';
 import { partListeners, partsOf, planAgain, planOf, type FillPlan } from './hole_plan.js';
 import { filledOf, patchesOf, reportOf, type GivenMesh } from './hole_results.js';
@@ -32,6 +32,7 @@ export interface MeshPlace {
   /** The mesh must not change. */
   open(mesh: BareMesh, budget: CallBudget): Answer<Timed<{ readonly open: OpenMesh; readonly holes: HolesArrays }>>;
   crossings(mesh: BareMesh, budget: CallBudget): Answer<Timed<Uint32Array>>;
+  carryOn(work: CarryWork, budget: CallBudget): Answer<Timed<Float64Array>>;
 }
 
 /** A mesh that is open, and what was found in it. */
@@ -113,10 +114,14 @@ export function* fillSteps(place: MeshPlace, given: OpenHoles, options: FillOpti
   }
   const close = closePatches(split.mesh, patches);
   if (close) {
-    const { value: pairs } = yield* wait(place.crossings(close.mesh, { ...limits, spentSeconds }));
+    const { value: pairs, seconds } = yield* wait(place.crossings(close.mesh, { ...limits, spentSeconds }));
+    spentSeconds += seconds;
     patches = withCrossings(patches, close, pairs);
   }
-  return filledOf(given, plan, split, patches, options);
+  const { attributes } = given.mesh;
+  const work = attributes && carryWorkOf(attributes, split.tails, split.mesh, patches);
+  const carried = work ? (yield* wait(place.carryOn(work, { ...limits, spentSeconds }))).value : new Float64Array();
+  return filledOf(given, plan, split, patches, carried, options);
 }
 
 function* patchSteps(

@@ -1,5 +1,5 @@
 // Meshes and options of holes as callers give them, checked.
-import { attributesOf } from './attributes.js';
+import { checkedAttributes } from './attributes.js';
 import { amountOf, choiceOf, entriesOf, fieldsOf, flagOf, functionOf, guarded, isIndex, mustBe, optionsOf, viewOf, type Given } from './check.js';
 import type { FlatMesh } from './compute_holes.js';
 import { SoapfilmError } from './errors.js';
@@ -28,7 +28,7 @@ export function flattenMesh(mesh: unknown, own: boolean, argument: 'mesh' | 'sur
     throw mustBe('bad-mesh', name, 'a Uint32Array of three vertices for each face', listed);
   }
   const single = positions instanceof Float32Array;
-  const attributes = argument === 'mesh' ? attributesOf(given, positions.length / 3, own) : undefined;
+  const attributes = argument === 'mesh' ? checkedAttributes(given, positions.length / 3, own) : undefined;
   return {
     positions: single || own ? Float64Array.from(positions) : positions,
     faces: own ? corners.slice() : corners,

@@ -17,7 +17,7 @@ import {
   type FillArrays,
   type HolesArrays,
 } from './border.js';
-import { carriedOn, tailsOf, type Attributes, type Seams } from './attributes.js';
+import { filledAttributes, type Attributes, type Seams } from './attributes.js';
 import type { BareMesh, FlatMesh } from './compute_holes.js';
 import type { Patches } from './hole_crossings.js';
 import type { FillPlan } from './hole_plan.js';
@@ -114,8 +114,16 @@ export interface GivenMesh {
 /**
  * The result, and when it is made, the last call of `onProgress`.
  * @param split the mesh as it is filled
+ * @param carried the attributes of new vertices, one after the other for each
  */
-export function filledOf(given: GivenMesh, plan: FillPlan, split: SplitMesh, patches: Patches, { output, onProgress }: FillOptions): FillResult {
+export function filledOf(
+  given: GivenMesh,
+  plan: FillPlan,
+  split: SplitMesh,
+  patches: Patches,
+  carried: Float64Array,
+  { output, onProgress }: FillOptions,
+): FillResult {
   const { positions: old, faces: oldCorners, single } = given.mesh;
   const [oldVertices, oldFaces] = [old.length / 3, oldCorners.length / 3];
   const { mesh, splitFaces } = split;
@@ -127,8 +135,8 @@ export function filledOf(given: GivenMesh, plan: FillPlan, split: SplitMesh, pat
   positions.set(patches.positions, mesh.positions.length - vertices);
   faces.set(mesh.faces.subarray(corners));
   faces.set(patches.faces, mesh.faces.length - corners);
-  const [carried, holes] = mesh.attributes ? attributesOf(mesh.attributes, given, plan, split, patches) : [undefined, patches.holes];
-  const attributes = carried && (isPart ? tailsOf(carried, oldVertices) : carried);
+  const attributes = given.mesh.attributes && filledAttributes(given.mesh.attributes, split.tails, carried, isPart ? oldVertices : 0);
+  const holes = attributes ? withoutSeams(attributes, given, plan, split, patches) : patches.holes;
   if (plan.todo.length > 0) tellLast(() => onProgress?.(1, plan.todo[plan.todo.length - 1], plan.todo.length));
   const { vertexMap, defects, loops } = given.report;
   return {
@@ -143,29 +151,34 @@ export function filledOf(given: GivenMesh, plan: FillPlan, split: SplitMesh, pat
   };
 }
 
-/** The attributes of the filled mesh, and the holes, which are told of those that could not be carried on. */
-function attributesOf(
+/**
+ * Sets to 0 what could not be carried on, and tells the holes of it.
+ * @param attributes those of the new vertices come last
+ */
+function withoutSeams(
   attributes: Attributes,
   { report, seams }: GivenMesh,
   { groups }: FillPlan,
   { mesh }: SplitMesh,
   patches: Patches,
-): [Attributes, readonly FilledHole[]] {
-  const old = mesh.positions.length / 3;
-  const carried = carriedOn(attributes, old, patches.positions.length / 3, patches.faces);
-  if (!seams) return [carried, patches.holes];
+): readonly FilledHole[] {
+  if (!seams) return patches.holes;
+  const [old, all] = [mesh.positions.length / 3, (mesh.positions.length + patches.positions.length) / 3];
   const oldFaces = mesh.faces.length / 3;
-  const holes = patches.holes.map((hole) => {
+  return patches.holes.map((hole) => {
     const rims = groups[hole.group].loops.flatMap((loop) => [...report.loops[loop].vertices]);
     const left = Object.keys(seams).filter((name) => rims.some((v) => seams[name][v] === 1));
     const { faces: [from, to] } = hole;
     if (left.length === 0 || from === to) return hole;
     for (const v of patches.faces.subarray(3 * (from - oldFaces), 3 * (to - oldFaces))) {
-      for (const name of left) if (v >= old) carried[name].data.fill(0, carried[name].size * v, carried[name].size * (v + 1));
+      if (v < old) continue;
+      for (const { data, size } of left.map((name) => attributes[name])) {
+        const at = data.length - size * (all - v);
+        data.fill(0, at, at + size);
+      }
     }
     return { ...hole, attributesLeft: left };
   });
-  return [carried, holes];
 }
 
 const countLoops = (groups: readonly HoleGroup[]): number => groups.reduce((sum, { loops }) => sum + loops.length, 0);

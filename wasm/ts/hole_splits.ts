@@ -1,4 +1,5 @@
 // Rims that get vertices of their own, where no surface can be had without: the faces along them are split.
+import { mapped, type Attributes } from './attributes.js';
 import type { FlatMesh } from './compute_holes.js';
 import type { Patches } from './hole_crossings.js';
 import type { FilledHole, SplitFace } from './types.js';
@@ -16,7 +17,9 @@ export type RimSplits = ReadonlyMap<number, readonly RimSplit[]>;
 
 /** A mesh with some of its faces split: old vertices and faces first, each split face as its first piece. */
 export interface SplitMesh {
-  readonly mesh: FlatMesh;
+  readonly mesh: Omit<FlatMesh, 'attributes'>;
+  /** Attributes of the vertices on the rims. */
+  readonly tails?: Attributes | undefined;
   readonly splitFaces: readonly SplitFace[];
 }
 
@@ -26,14 +29,11 @@ export function splitRims(mesh: FlatMesh, splits: readonly RimSplit[]): SplitMes
   const round = mesh.single ? Math.fround : (x: number): number => x;
   const between = ({ tail, head, parameter: t }: RimSplit, data: ArrayLike<number>, size: number, k: number): number =>
     (1 - t) * data[size * tail + k] + t * data[size * head + k];
-  const withVertices = <A extends Float64Array | Float32Array>(data: A, size: number): A => {
-    const longer = new (data.constructor as new (length: number) => A)(data.length + size * splits.length);
-    longer.set(data);
-    splits.forEach((split, i) => {
-      for (let k = 0; k < size; k++) longer[size * (old + i) + k] = round(between(split, data, size, k));
-    });
-    return longer;
-  };
+  const onRims = (data: ArrayLike<number>, size: number): number[] =>
+    splits.flatMap((split) => Array.from({ length: size }, (_, k) => round(between(split, data, size, k))));
+  const positions = new Float64Array(mesh.positions.length + 3 * splits.length);
+  positions.set(mesh.positions);
+  positions.set(onRims(mesh.positions, 3), mesh.positions.length);
   const byFaces = new Map<number, Sides>();
   splits.forEach(({ face, tail, head, parameter }, i) => {
     const sides = byFaces.get(face) ?? new Map<string, OnSide[]>();
@@ -55,11 +55,8 @@ export function splitRims(mesh: FlatMesh, splits: readonly RimSplit[]): SplitMes
   const all = new Uint32Array(faces.length + further.length);
   all.set(faces);
   all.set(further, faces.length);
-  const attributes =
-    mesh.attributes &&
-    Object.fromEntries(Object.entries(mesh.attributes).map(([name, { data, size }]) => [name, { data: withVertices(data, size), size }]));
-  const split = { positions: withVertices(mesh.positions, 3), faces: all, single: mesh.single, ...(attributes && { attributes }) };
-  return { mesh: split, splitFaces };
+  const tails = mesh.attributes && mapped(mesh.attributes, ({ data, size }) => ({ data: Float32Array.from(onRims(data, size)), size }));
+  return { mesh: { positions, faces: all, single: mesh.single }, tails, splitFaces };
 }
 
 interface OnSide {

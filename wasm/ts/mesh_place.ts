@@ -1,6 +1,6 @@
 // Where meshes are open in this thread: for the time of one call, or for a session.
 import type { HolesArrays } from './border.js';
-import { computeCrossings, computeHoles, computeWeld, fillIn, kClose, openIn, type MeshCall } from './compute_holes.js';
+import { computeCarry, computeCrossings, computeHoles, computeWeld, fillIn, kClose, openIn, type MeshCall } from './compute_holes.js';
 import type { MeshPlace, OpenMesh } from './hole_filling.js';
 import { callCore, shared } from './runtime.js';
 import { Session } from './session.js';
@@ -10,6 +10,7 @@ export const passingPlace: MeshPlace = {
   weld: computeWeld,
   find: computeHoles,
   crossings: computeCrossings,
+  carryOn: computeCarry,
   open(mesh, budget) {
     const call: MeshCall = (name, args, read, watch) => callCore(shared.meshes, name, args, read, watch).arrays;
     const { value: holes, seconds } = openIn(call, mesh, budget);

@@ -3,7 +3,7 @@ import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
 import type { Modules } from './compile.js';
 import type { PolygonEditor } from './compute_edits.js';
 import type { FlatPolygons } from './flat_polygons.js';
-import type { computeCrossings, computeHoles, computeOpen, computePatches, computeWeld } from './compute_holes.js';
+import type { computeCarry, computeCrossings, computeHoles, computeOpen, computePatches, computeWeld } from './compute_holes.js';
 import type { computeSmooth } from './compute_smooth.js';
 import type { computeSpan } from './compute_span.js';
 import type { PolygonsOptions, PolygonTriangulation, PolygonsTriangulation } from './types.js';
@@ -21,6 +21,7 @@ export interface Calls {
   readonly openMesh: typeof computeOpen;
   readonly fillHoles: typeof computePatches;
   readonly findCrossings: typeof computeCrossings;
+  readonly carryOn: typeof computeCarry;
   readonly smoothSurface: typeof computeSmooth;
 }
 

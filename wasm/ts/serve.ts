@@ -1,6 +1,6 @@
 // The thread's side of the pool: runs the calls that it receives, one after the other, and keeps sessions.
 import { PolygonEditor } from './compute_edits.js';
-import { computeCrossings, computeHoles, computeOpen, computePatches, computeWeld, forgetMesh } from './compute_holes.js';
+import { computeCarry, computeCrossings, computeHoles, computeOpen, computePatches, computeWeld, forgetMesh } from './compute_holes.js';
 import { computeSmooth } from './compute_smooth.js';
 import { computePolygons, triangulationOfOne } from './compute_polygons.js';
 import { computeSpan } from './compute_span.js';
@@ -34,6 +34,7 @@ const calls: Calls = {
   openMesh: computeOpen,
   fillHoles: computePatches,
   findCrossings: computeCrossings,
+  carryOn: computeCarry,
   smoothSurface: computeSmooth,
 };
 

@@ -85,6 +85,7 @@ function placeIn(pool: Pool): MeshPlace {
     weld: (mesh, { signal, ...budget }) => pool.call('weldMesh', [bare(mesh), budget], { signal }),
     find: (mesh, { signal, onProgress, ...budget }) => pool.call('findHoles', [bare(mesh), budget], { signal, onProgress }),
     crossings: (mesh, { signal, ...budget }) => pool.call('findCrossings', [bare(mesh), budget], { signal }),
+    carryOn: (work, { signal, ...budget }) => pool.call('carryOn', [work, budget], { signal }),
     async open(given, { signal, onProgress, ...budget }) {
       const copy = (): BareMesh => ({ positions: given.positions.slice(), faces: given.faces.slice() });
       const mesh: PooledMesh = { name: ++names, isClosed: false, copy };

@@ -107,3 +107,45 @@ TEST_CASE("sort: n log n comparisons against an adversary of quicksort") {
     CHECK(double(adversary.comparisons) < 8 * count * std::log2(count));
   }
 }
+
+TEST_CASE("select: the right item in its place, the less before it, nothing lost") {
+  MESSAGE("seed 7103");
+  Random random(7103);
+  for (const uint32_t count : {1u, 2u, 16u, 17u, 40u, 1000u}) {
+    for (int shape = 0; shape < 4; ++shape) {
+      CAPTURE(count);
+      CAPTURE(shape);
+      std::vector<uint32_t> keys(count);
+      for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t forms[] = {random.bits(), i, 5, random.bits() % 3};
+        keys[i] = forms[shape];
+      }
+      std::vector<uint32_t> expected = keys;
+      std::sort(expected.begin(), expected.end());
+      for (const uint32_t at : {0u, count / 2, count - 1}) {
+        std::vector<uint32_t> values = keys;
+        sf::select(values.begin(), values.begin() + at, values.end());
+        CHECK(values[at] == expected[at]);
+        for (uint32_t i = 0; i < count; ++i)
+          CHECK((i < at ? values[i] <= values[at] : values[i] >= values[at]));
+        std::sort(values.begin(), values.end());
+        CHECK(values == expected);
+      }
+    }
+  }
+  // Nothing to be found leaves everything alone.
+  std::vector<int> none, two{2, 1};
+  sf::select(none.begin(), none.end(), none.end());
+  sf::select(two.begin(), two.end(), two.end());
+  CHECK(two == std::vector<int>{2, 1});
+}
+
+TEST_CASE("select: n log n comparisons against an adversary of quicksort") {
+  const uint32_t count = 30000;
+  Adversary adversary(count);
+  std::vector<uint32_t> order(count);
+  for (uint32_t i = 0; i < count; ++i) order[i] = i;
+  sf::select(order.begin(), order.begin() + count / 2, order.end(),
+             [&](uint32_t a, uint32_t b) { return adversary.less(a, b); });
+  CHECK(double(adversary.comparisons) < 8 * count * std::log2(count));
+}

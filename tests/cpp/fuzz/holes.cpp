@@ -1,4 +1,4 @@
-// Fuzzes sf_find_holes, sf_fill_holes and sf_smooth_surface through the C ABI: grids with faces left out, doubled and
+// Fuzzes sf_find_holes, sf_fill_holes, sf_carry_on and sf_smooth_surface through the C ABI: grids with faces left out, doubled and
 // turned, vertices moved onto each other, and what is no mesh at all.
 // Whatever comes back has to be a status, or a mesh with the right numbers of everything and finite coordinates.
 #include <cmath>
@@ -169,6 +169,23 @@ void smooth(const Mesh& mesh, Bytes& in) {
   sf_result_free(result);
 }
 
+void carryOn(const Mesh& mesh, Bytes& in) {
+  const uint32_t fixedCount = in.below(mesh.vertexCount() + 2), size = in.below(6);
+  std::vector<double> values(size_t(fixedCount) * size);
+  for (double& x : values) x = in.below(40) == 39 ? in.raw() : in.byte();
+  SfPlace where;
+  SfResult* result = nullptr;
+  const SfStatus status =
+      sf_carry_on(mesh.positions.data(), mesh.vertexCount(), mesh.faces.data(), mesh.faceCount(),
+                  fixedCount, values.data(), size, 64e6, &where, &result);
+  require((status == 0) == (result != nullptr), "a result with Ok alone");
+  if (result == nullptr) return;
+  size_t count;
+  array<double>(result, SfCarry_values, count);
+  require(count == size_t(size) * (mesh.vertexCount() - fixedCount), "values of every vertex");
+  sf_result_free(result);
+}
+
 }  // namespace
 
 extern "C" int32_t sf_host_progress(double fraction, double, double) {
@@ -185,10 +202,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   callsLeft = kMostCalls;
   Mesh mesh = grid(in);
   spoil(mesh, in);
-  if (in.below(4) == 0) {
-    smooth(mesh, in);
-    return 0;
-  }
+  const uint32_t task = in.below(8);
+  if (task == 0) carryOn(mesh, in);
+  if (task == 1 || task == 2) smooth(mesh, in);
+  if (task < 3) return 0;
   SfPlace where;
   SfResult* holes = nullptr;
   const SfStatus status =

@@ -64,6 +64,9 @@ SF_CROSSINGS_ARRAYS(SF_ARRAY)
 #define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfWeld, type, name)
 SF_WELD_ARRAYS(SF_ARRAY)
 #undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfCarry, type, name)
+SF_CARRY_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
 #define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfFill, type, name)
 SF_FILL_ARRAYS(SF_ARRAY)
 #undef SF_ARRAY

@@ -107,4 +107,25 @@ void sort(Iterator first, Iterator last, Less less = {}) {
   sorting::introsort(&*first, count, depth, less);
 }
 
+/// Puts the item that would come at `nth` if all were sorted there, those before it in front and those after it
+/// behind. O(n) comparisons as a rule, O(n log n) at worst; otherwise as `sort`.
+template <class Iterator, class Less = Ascending>
+void select(Iterator first, Iterator nth, Iterator last, Less less = {}) {
+  size_t count = size_t(last - first), at = size_t(nth - first);
+  if (at >= count) return;
+  auto* items = &*first;
+  int depth = 0;
+  for (size_t n = count; n > 0; n /= 2) depth += 2;
+  while (count > sorting::kShort) {
+    if (depth-- == 0) return sorting::heapSort(items, count, less);
+    const size_t left = sorting::partition(items, count, less);
+    if (at < left) {
+      count = left;
+    } else {
+      items += left, count -= left, at -= left;
+    }
+  }
+  sorting::insertionSort(items, count, less);
+}
+
 }  // namespace sf

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/atan2.h"
+#include "base/sort.h"
 
 namespace sf {
 namespace {
@@ -19,13 +20,22 @@ double angleOf(double cosine) {
   return fastAtan2(square > 0 ? std::sqrt(square) : 0, cosine);
 }
 
+/// The places of things in an array: one type for all, so that selecting is compiled once.
+struct Places {
+  const Vec3* first;
+  size_t stride;  // in bytes
+
+  Vec3 operator()(uint32_t i) const {
+    return *reinterpret_cast<const Vec3*>(reinterpret_cast<const char*>(first) + i * stride);
+  }
+};
+
 /// Puts half of the items, by the longest side of the box around their places, in front.
-template <class PlaceOf>
-void halve(uint32_t* items, uint32_t count, Vec3 size, PlaceOf placeOf) {
+void halve(uint32_t* items, uint32_t count, Vec3 size, Places placeOf) {
   double Vec3::*const axis = size.x >= size.y && size.x >= size.z ? &Vec3::x
                              : size.y >= size.z                   ? &Vec3::y
                                                                   : &Vec3::z;
-  std::nth_element(items, items + count / 2, items + count, [&](uint32_t i, uint32_t j) {
+  sf::select(items, items + count / 2, items + count, [&](uint32_t i, uint32_t j) {
     const double a = placeOf(i).*axis, b = placeOf(j).*axis;
     return a != b ? a < b : i < j;
   });
@@ -93,7 +103,7 @@ uint32_t RimTree::splitEdges(uint32_t first, uint32_t count) {
   const uint32_t number = uint32_t(nodes_.size());
   nodes_.push_back(node);
   if (count <= kLeaf) return number;
-  halve(&order_[first], count, box.high - box.low, [&](uint32_t i) { return sides_[i].at; });
+  halve(&order_[first], count, box.high - box.low, {&sides_[0].at, sizeof(RimSide)});
   splitEdges(first, count / 2);
   const uint32_t second = splitEdges(first + count / 2, count - count / 2);
   nodes_[number].first = second, nodes_[number].count = 0;
@@ -119,8 +129,7 @@ uint32_t RimTree::splitRims(uint32_t first, uint32_t count) {
   const uint32_t number = uint32_t(rimNodes_.size());
   rimNodes_.push_back(node);
   if (count == 1) return number;
-  halve(&rimOrder_[first], count, centres.high - centres.low,
-        [&](uint32_t r) { return balls_[r].centre; });
+  halve(&rimOrder_[first], count, centres.high - centres.low, {&balls_[0].centre, sizeof(RimBall)});
   splitRims(first, count / 2);
   const uint32_t second = splitRims(first + count / 2, count - count / 2);
   rimNodes_[number].second = second;

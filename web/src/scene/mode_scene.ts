@@ -2,10 +2,10 @@
 import { computed, effect, type ReadonlySignal } from '@preact/signals';
 import { Group as SceneGroup } from 'three';
 import { boundsOf, type Point } from '../shapes/vec.ts';
-import { boxOfGroup, boxOfItem, type Group, type Item, type Place } from '../state/document.ts';
+import { boxOfGroup, boxOfItem, type Group, type Place } from '../state/document.ts';
 import { hover, mode, selection, shown } from '../state/store.ts';
 import type { Failure } from '../state/work.ts';
-import type { Spot } from './eye.ts';
+import { isBoxNear, type Spot } from './eye.ts';
 import type { DrawnKind, Layer } from './kind.ts';
 import { OrbitViewpoint } from './orbit_viewpoint.ts';
 import { kIdentity, placementFor, type Placement } from './placement.ts';
@@ -70,7 +70,8 @@ export class ModeScene {
     let best: Picked | null = null;
     let least = Infinity;
     for (const item of this.options.group.peek().items) {
-      if (!this.isNear(item, at, reach)) continue;
+      // A look at its box first, since there may be thousands.
+      if (!isBoxNear(boxOfItem(item), this.viewpoint, at, reach)) continue;
       const kind = this.options.kinds.find(({ name }) => name === item.kind);
       const hit = kind?.pick(item.shape, this.viewpoint, at, reach);
       if (!hit) continue;
@@ -80,23 +81,6 @@ export class ModeScene {
       if (distance < least) [best, least] = [{ place: { item: item.id, part, handle }, point }, distance];
     }
     return best;
-  }
-
-  /** Whether the pointer may be near an object: a look at its box, since there may be thousands. */
-  private isNear(item: Item, at: Spot, reach: number): boolean {
-    const { low, high } = boxOfItem(item);
-    let [left, top, right, bottom] = [Infinity, Infinity, -Infinity, -Infinity];
-    for (let corner = 0; corner < 8; corner++) {
-      const p = this.viewpoint.project([
-        corner & 1 ? high[0] : low[0],
-        corner & 2 ? high[1] : low[1],
-        corner & 4 ? high[2] : low[2],
-      ]);
-      if (!p.visible) return true;
-      [left, right] = [Math.min(left, p.x), Math.max(right, p.x)];
-      [top, bottom] = [Math.min(top, p.y), Math.max(bottom, p.y)];
-    }
-    return at.x >= left - reach && at.x <= right + reach && at.y >= top - reach && at.y <= bottom + reach;
   }
 
   private draw(): void {

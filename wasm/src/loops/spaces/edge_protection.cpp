@@ -6,6 +6,7 @@
 
 #include "base/charge.h"
 #include "base/predicates.h"
+#include "base/sort.h"
 #include "delaunay/delaunay.h"
 
 namespace sf {
@@ -151,7 +152,7 @@ void Protection::chooseWorst() {
   std::vector<double> cosines;
   for (uint32_t a : missing_) cosines.push_back(encroacher_[a].cosine);
   auto quantile = cosines.begin() + std::ptrdiff_t(double(cosines.size()) * kWorstShare);
-  std::nth_element(cosines.begin(), quantile, cosines.end());
+  sf::select(cosines.begin(), quantile, cosines.end());
   double limit = *quantile + 1e-9;  // symmetric pieces are treated alike
   auto isWorse = [&](uint32_t b, uint32_t a) {
     double x = encroacher_[b].cosine, y = encroacher_[a].cosine;

@@ -18,14 +18,15 @@ export function colorsOf({ attributes }: Attributed): Attribute | null {
   return color && (color.size === 3 || color.size === 4) ? color : null;
 }
 
-/** What was saved as attributes of so many vertices; null where it is not such. */
+/** What was saved as attributes of so many vertices: those that are such, of finite numbers. Null: there are none. */
 export function readAttributes(saved: unknown, vertices: number): Attributes | null {
   if (typeof saved !== 'object' || saved === null) return null;
-  const areSound = Object.values(saved).every((each: Partial<Record<keyof Attribute, unknown>> | null) => {
+  const sound = Object.entries(saved).filter(([, each]: [string, Partial<Record<keyof Attribute, unknown>> | null]) => {
     const { data, size } = each ?? {};
-    return data instanceof Float32Array && Number.isInteger(size) && (size as number) > 0 && data.length === (size as number) * vertices;
+    if (!(data instanceof Float32Array) || !Number.isInteger(size) || (size as number) <= 0) return false;
+    return data.length === (size as number) * vertices && data.every(Number.isFinite);
   });
-  return areSound ? (saved as Attributes) : null;
+  return sound.length > 0 ? Object.fromEntries(sound) : null;
 }
 
 /** Those of some vertices, in an order of their own. */

@@ -6,11 +6,12 @@ import type { ModeScene } from '../../scene/mode_scene.ts';
 import { allToScene, type Placement } from '../../scene/placement.ts';
 import type { Stage } from '../../scene/stage.ts';
 import { colorsOf, joined, picked } from './attributes.ts';
-import { patches, type Patch } from './filling.ts';
+import { patches } from './filling.ts';
 import type { Hole } from './grouping.ts';
 import { chosenHoles, found, holes, hoveredHole } from './holes.ts';
 import { LitSurface, type SceneTriangles } from './lit_surface.ts';
 import { looksFor, rimColor, view } from './looks.ts';
+import { additionsOf, type Patch } from './patches.ts';
 import type { Found, Whole } from './whole.ts';
 
 /** In CSS pixels. */
@@ -83,8 +84,7 @@ function segmentsOf({ of, report }: Found, all: readonly Hole[], { center, unit 
 function trianglesOf(of: Whole, all: readonly Patch[], placement: Placement): SceneTriangles {
   const n = of.positions.length / 3;
   const crossed = [...new Set(all.flatMap((patch) => patch.crossed))];
-  const sum = (key: 'positions' | 'faces') => all.reduce((length, patch) => length + patch[key].length, 0);
-  const fresh = sum('positions') / 3;
+  const { starts, count: fresh } = additionsOf(all);
   // Those of the patches come first, then those of the mesh as they are met.
   const old = new Map<number, number>();
   const numberOf = (vertex: number): number => {
@@ -92,25 +92,21 @@ function trianglesOf(of: Whole, all: readonly Patch[], placement: Placement): Sc
     old.set(vertex, number);
     return number;
   };
-  const faces = new Uint32Array(sum('faces') + 3 * crossed.length);
+  const faces = new Uint32Array(all.reduce((sum, patch) => sum + patch.faces.length, 3 * crossed.length));
   const marked = new Set<number>();
-  let [to, first] = [0, 0];
+  let to = 0;
   for (const patch of all) {
+    const first = starts.get(patch.added) ?? 0;
     for (const face of patch.crossing) marked.add(to / 3 + face);
     for (const vertex of patch.faces) faces[to++] = vertex < n ? numberOf(vertex) : vertex - n + first;
-    first += patch.positions.length / 3;
   }
   for (const face of crossed) {
     marked.add(to / 3);
     for (let corner = 0; corner < 3; corner++) faces[to++] = numberOf(of.faces[3 * face + corner]);
   }
   const positions = new Float32Array(3 * (fresh + old.size));
-  first = 0;
-  for (const patch of all) {
-    positions.set(patch.positions, first);
-    first += patch.positions.length;
-  }
+  for (const [added, first] of starts) positions.set(added.positions, 3 * first);
   for (const [vertex, number] of old) positions.set(of.positions.subarray(3 * vertex, 3 * vertex + 3), 3 * number);
-  const colors = colorsOf(joined([...all, picked(of.attributes, [...old.keys()])]));
+  const colors = colorsOf(joined([...starts.keys(), picked(of.attributes, [...old.keys()])]));
   return { positions: allToScene(placement, positions), faces, colors, marked };
 }

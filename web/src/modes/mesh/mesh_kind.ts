@@ -1,7 +1,7 @@
 // The kind of object that is a mesh. Its parts are its rims, once they have been found: they are chosen, and never moved.
 import { Group, type Object3D } from 'three';
 import { areSame, type DrawnKind, type Drawn, type Hit, type Layer, type Marks } from '../../scene/kind.ts';
-import { distanceOf, shareAlong, type Eye, type Projected, type Spot } from '../../scene/eye.ts';
+import { distanceOf, isBoxNear, shareAlong, type Eye, type Projected, type Spot } from '../../scene/eye.ts';
 import { allToScene, type Placement } from '../../scene/placement.ts';
 import { add, boxOfPoints, scale, subtract, type Point } from '../../shapes/vec.ts';
 import type { Item } from '../../state/document.ts';
@@ -9,7 +9,7 @@ import { colorsOf, readAttributes } from './attributes.ts';
 import { LitSurface } from './lit_surface.ts';
 import { looksFor } from './looks.ts';
 import { kMesh, type MeshShape } from './settings.ts';
-import { rimsOf, shapeOf, vertexAt } from './whole.ts';
+import { rimsOf, shapeOf, vertexAt, type Rims } from './whole.ts';
 
 export const meshKind: DrawnKind<MeshShape> = {
   name: kMesh,
@@ -33,12 +33,19 @@ function readShape(saved: unknown): MeshShape | null {
   return { positions, faces, ...(sound && { attributes: sound }) };
 }
 
+/** The rims of runs whose boxes a place is near. */
+function* partsNear(runs: Rims['runs'], eye: Eye, at: Spot, reach: number): Iterable<number> {
+  for (const { from, to, box } of runs) {
+    if (isBoxNear(box, eye, at, reach)) for (let part = from; part < to; part++) yield part;
+  }
+}
+
 /** The rim nearest to a place. Of rims alike near, the one that is nearer to the eye. */
 function pickRim(shape: MeshShape, eye: Eye, at: Spot, reach: number): Hit | null {
-  const { starts, vertices } = rimsOf(shape);
+  const { starts, vertices, runs } = rimsOf(shape);
   let best: Hit | null = null;
   let least = Infinity;
-  for (let part = 0; part + 1 < starts.length; part++) {
+  for (const part of partsNear(runs, eye, at, reach)) {
     let before: { readonly point: Point; readonly at: Projected } | null = null;
     for (let i = starts[part]; i <= starts[part + 1]; i++) {
       const point = vertexAt(shape, vertices[i < starts[part + 1] ? i : starts[part]]);

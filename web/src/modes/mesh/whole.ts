@@ -1,7 +1,7 @@
 // All meshes of the group as one, as the library takes them, and the rims that were found in each.
 import type { HoleReport } from 'soapfilm';
 import type { MeshSessionHandle } from 'soapfilm/worker';
-import { unionOf, type Box, type Point } from '../../shapes/vec.ts';
+import { boxOfPoints, unionOf, type Box, type Point } from '../../shapes/vec.ts';
 import type { Id, Item, Place } from '../../state/document.ts';
 import { joined } from './attributes.ts';
 import type { MeshShape } from './settings.ts';
@@ -64,9 +64,21 @@ export interface Rims {
   readonly starts: Uint32Array;
   /** The vertices of the mesh along the rims. */
   readonly vertices: Uint32Array;
+  /** All rims in runs of neighbours in the list: a look at a box tells that the pointer is near none of many. */
+  readonly runs: readonly RimRun[];
 }
 
-const kNoRims: Rims = { loops: [], parts: new Map(), starts: new Uint32Array(1), vertices: new Uint32Array() };
+interface RimRun {
+  /** From the first rim to before the second. */
+  readonly from: number;
+  readonly to: number;
+  readonly box: Box;
+}
+
+/** A run ends at the rim with which it has so many vertices. */
+const kRunVertices = 200;
+
+const kNoRims: Rims = { loops: [], parts: new Map(), starts: new Uint32Array(1), vertices: new Uint32Array(), runs: [] };
 const found = new WeakMap<object, Rims>();
 
 /** What was found in a mesh; no rims until then. */
@@ -83,8 +95,22 @@ export function noteRims({ items, starts }: Whole, { loops }: HoleReport): void 
       loops[i].vertices.forEach((vertex, at) => (vertices[ends[rim] + at] = vertex - starts[k]));
     });
     const parts = new Map(numbers.map((loop, part) => [loop, part]));
-    found.set(shapeOf(item), { loops: numbers, parts, starts: ends, vertices });
+    const shape = shapeOf(item);
+    found.set(shape, { loops: numbers, parts, starts: ends, vertices, runs: runsOf(shape, ends, vertices) });
   });
+}
+
+function runsOf({ positions }: MeshShape, starts: Uint32Array, vertices: Uint32Array): RimRun[] {
+  const runs: RimRun[] = [];
+  let from = 0;
+  for (let to = 1; to < starts.length; to++) {
+    if (starts[to] - starts[from] < kRunVertices && to + 1 < starts.length) continue;
+    const points = new Float32Array(3 * (starts[to] - starts[from]));
+    for (let i = 0; i < points.length; i++) points[i] = positions[3 * vertices[starts[from] + ((i / 3) | 0)] + (i % 3)];
+    runs.push({ from, to, box: boxOfPoints(points, 3) });
+    from = to;
+  }
+  return runs;
 }
 
 /** The number in the report of the loop at a place. */

@@ -2,8 +2,8 @@
 import type { DefectKind, HoleReason, MeshDefect } from 'soapfilm';
 import { countOf } from '../../app/files.ts';
 import { plainFailure, type Failure } from '../../state/work.ts';
-import type { Patch } from './filling.ts';
 import type { Hole } from './grouping.ts';
+import type { Patch } from './patches.ts';
 
 const kReasons: Record<HoleReason, string> = {
   'no-surface': 'no surface fits its rims',
