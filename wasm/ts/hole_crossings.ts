@@ -15,7 +15,7 @@ export interface Patches {
 }
 
 /** Patches whose boxes overlap, as a mesh of their own. */
-export interface ClosePatches {
+interface ClosePatches {
   readonly mesh: BareMesh;
   /** By its faces: their numbers in the filled mesh. */
   readonly faces: Uint32Array;
