@@ -167,7 +167,7 @@ const kPolygonNames = [
 ];
 const kFillNames = [
   'maxMemoryBytes', 'maxSeconds', 'weld', 'weights', 'candidates', 'fairness', 'density', 'maxNewVertices', 'creases', 'holes', 'groups',
-  'perHole', 'fillOpenRims', 'maxVertices', 'maxLength', 'output', 'onProgress',
+  'perHole', 'fillOpenRims', 'maxVertices', 'maxLength', 'output', 'onProgress', 'maxSecondsPerHole',
 ];
 const readers: [string, readonly string[], (options: object) => unknown][] = [
   ['spanLoops', kSpanNames, (options) => spanLoops([kLoop], options)],

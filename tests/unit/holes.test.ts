@@ -374,6 +374,16 @@ describe('options', () => {
     expect(areaOfNew(area)).toBeLessThan(areaOfNew(bending));
     expect(bending.holes[1].rimAngle.after).toBeLessThan(area.holes[1].rimAngle.after);
   });
+
+  test('weights: what they cost across the edge of a box', () => {
+    const mesh = cut(box(8), (p) => near(p, [1, 0, 1], 0.5));
+    const filled = (weights: Weights) => fillHoles(mesh, { weights, density: 0, fairness: 0, creases: false });
+    const [area, bending] = [filled({ area: 1 }), filled({ dihedral: 1 })];
+    for (const result of [area, bending]) expectClosed(mesh, result, 2);
+    expect(area.holes[0].cost).toBeLessThan(1);
+    expect(bending.holes[0].cost).toBeCloseTo(Math.PI / 2, 9);
+    expect(area.mesh.faces).not.toEqual(bending.mesh.faces);
+  });
 });
 
 describe('weld', () => {

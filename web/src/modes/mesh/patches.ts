@@ -14,7 +14,7 @@ interface SplitPieces {
 }
 
 /** What comes with patches besides their faces: of one patch, or of all those along whose rims the same faces had to be split. */
-export interface Addition {
+interface Addition {
   /** `[3n]` new vertices. */
   readonly positions: Float32Array;
   /** Of the new vertices: those that the mesh has. */
