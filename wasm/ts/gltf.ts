@@ -74,7 +74,7 @@ export function splitGlb(bytes: Bytes): { readonly json: unknown; readonly data:
   return { json, data };
 }
 
-export interface Reduced {
+interface Reduced {
   readonly json: object;
   /** The bytes of buffers, by their names. */
   readonly resources: Record<string, Bytes>;

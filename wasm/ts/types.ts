@@ -654,6 +654,7 @@ export interface SmoothSurface {
   readonly fixed: Uint32Array;
   /** Vertices where the film has shrunk to a thread: there is none, as between rings that are too far apart. */
   readonly collapsed: Uint32Array;
+  /** In square units of the input. */
   readonly area: number;
   /** For soap films: whether a further step would move nothing. */
   readonly isMinimal: boolean;

@@ -156,13 +156,14 @@ extern "C" SfStatus sf_find_holes(const double* positions, uint32_t vertexCount,
   sf::Grouping grouping;
   Found& found = opened->found;
   if (outcome.ok() && !find(work, charge, found)) outcome = {work.status()};
+  // The grouping is handed out, and not kept.
+  opened->bytes = charge.bytes();
   work.beginStage(0.6, 1);
   if (outcome.ok() && groups &&
       !sf::groupRims(mesh, found.adjacency, found.rims, work, charge, grouping))
     outcome = {work.status()};
   if (outcome.ok()) {
     *result = groups ? pack(found, std::move(grouping)) : new SfResult(SfHolesArrayCount);
-    opened->bytes = charge.bytes();
     if (keeps)
       (*result)->put<SfHoles_session>(std::vector<uint32_t>{openMeshes().keep(std::move(opened))});
   }
@@ -184,14 +185,12 @@ extern "C" SfStatus sf_fill_holes(uint32_t session, const uint32_t* groupStarts,
   sf::Charge held(work);
   if (!held.add(opened->bytes)) return sf::endWith({work.status()}, where);
   if (groupCount > 0 && !opened->isSurveyed) {
-    sf::Charge charge(work);
-    if (!sf::survey(mesh, adjacency, rims, work, charge, opened->around)) {
+    if (!sf::survey(mesh, adjacency, rims, work, held, opened->around)) {
       opened->around = {};
       return sf::endWith({work.status()}, where);
     }
     opened->isSurveyed = true;
-    opened->bytes += charge.bytes();
-    held.add(charge.bytes());
+    opened->bytes = held.bytes();
   }
   sf::HoleFiller filler(mesh, adjacency, rims, opened->around, work);
   sf::Outcome outcome;
