@@ -83,6 +83,18 @@ typedef struct SfSmoothSettings {
 typedef struct SfSmoothNumbers {
   SF_SMOOTH_NUMBERS_RECORD(SF_FIELD)
 } SfSmoothNumbers;
+typedef struct SfFaceFault {
+  SF_FACE_FAULT_RECORD(SF_FIELD)
+} SfFaceFault;
+typedef struct SfSamplingSettings {
+  SF_SAMPLING_SETTINGS(SF_FIELD)
+} SfSamplingSettings;
+typedef struct SfSurfaceReport {
+  SF_SURFACE_REPORT_RECORD(SF_FIELD)
+} SfSurfaceReport;
+typedef struct SfTessellationNumbers {
+  SF_TESSELLATION_NUMBERS_RECORD(SF_FIELD)
+} SfTessellationNumbers;
 #undef SF_FIELD
 
 // The arrays of each result, by name: SfSpan_triangles and the like.
@@ -118,6 +130,12 @@ enum SfFillArray { SF_FILL_ARRAYS(SF_ARRAY) SfFillArrayCount };
 #undef SF_ARRAY
 #define SF_ARRAY(type, name, meaning) SfSmooth_##name,
 enum SfSmoothArray { SF_SMOOTH_ARRAYS(SF_ARRAY) SfSmoothArrayCount };
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SfSurfaces_##name,
+enum SfSurfacesArray { SF_SURFACES_ARRAYS(SF_ARRAY) SfSurfacesArrayCount };
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SfTessellation_##name,
+enum SfTessellationArray { SF_TESSELLATION_ARRAYS(SF_ARRAY) SfTessellationArrayCount };
 #undef SF_ARRAY
 
 /// Arrays handed back by one call; owned by the caller until sf_result_free.
@@ -282,6 +300,28 @@ SfStatus sf_smooth_surface(const double* positions, uint32_t vertexCount, const 
                            uint32_t triangleCount, const uint32_t* fixed, uint32_t fixedCount,
                            const double* boundaryNormals, uint32_t normalCount,
                            const SfSmoothSettings* settings, SfPlace* where, SfResult** result);
+
+/// Opens a session on trimmed surfaces with shared edges (Kumar). Faces with faults are left out of all that follows.
+///   shape     [shapeLength] counts, in the order that src/surface/model.h tells
+///   numbers   [numberLength] all else
+///   maxBytes  memory limit
+///   where     out: no place
+///   result    out: SF_SURFACES_ARRAYS; null unless the status is Ok. BadOption if the arrays do not fit their counts
+SF_API(sf_open_surfaces)
+SfStatus sf_open_surfaces(const uint32_t* shape, uint32_t shapeLength, const double* numbers,
+                          uint32_t numberLength, double maxBytes, SfPlace* where,
+                          SfResult** result);
+
+/// Tessellates the surfaces of a session from scratch.
+///   maxBytes  memory limit, what is kept included
+///   where     out: no place
+///   result    out: SF_TESSELLATION_ARRAYS; null unless the status is Ok
+SF_API(sf_tessellate_surfaces)
+SfStatus sf_tessellate_surfaces(uint32_t session, const SfSamplingSettings* settings,
+                                double maxBytes, SfPlace* where, SfResult** result);
+
+/// Ends the session of that number, if there is one. A later session may get the number. Returns Ok.
+SF_API(sf_close_surfaces) SfStatus sf_close_surfaces(uint32_t session);
 
 #ifdef __cplusplus
 }

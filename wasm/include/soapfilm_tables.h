@@ -344,4 +344,99 @@
   X(double, area, "of the surface") \
   X(double, isMinimal, "1 if a further step of a film would move nothing, else 0")
 
+/* sf_open_surfaces */
+
+#define SF_SURFACE_FAULT_CHOICES(X)                \
+  X(BadKnots, 0, "bad-knots")                      \
+  X(BadWeights, 1, "bad-weights")                  \
+  X(NotFinite, 2, "not-finite")                    \
+  X(BadEdge, 3, "bad-edge")                        \
+  X(BadDomain, 4, "bad-domain")                    \
+  X(TrimOutside, 5, "trim-outside")                \
+  X(TrimOpen, 6, "trim-open")                      \
+  X(EdgeApart, 7, "edge-apart")                    \
+  X(TrimSelfIntersects, 8, "trim-self-intersects") \
+  X(TrimsCross, 9, "trims-cross")                  \
+  X(HoleOutside, 10, "hole-outside")               \
+  X(Degenerate, 11, "degenerate")
+
+#define SF_FACE_FAULT_RECORD(X)                                             \
+  X(uint32_t, fault, "a choice of SF_SURFACE_FAULT_CHOICES")                \
+  X(uint32_t, face, "the face")                                             \
+  X(uint32_t, loop, "its loop, or 0xFFFFFFFF")                              \
+  X(uint32_t, use, "the use in this loop, or 0xFFFFFFFF")                   \
+  X(uint32_t, otherLoop, "the other loop of two that cross, or 0xFFFFFFFF") \
+  X(uint32_t, edge, "the edge, or 0xFFFFFFFF")
+
+#define SF_SURFACES_ARRAYS(X)                                         \
+  X(uint32_t, session, "[1] the number of the session")               \
+  X(SfFaceFault, faults, "[f] the faces that are left out, in order") \
+  X(double, box, "[6] least and greatest corner around all faces left in")
+
+/* sf_tessellate_surfaces, sf_update_surfaces */
+
+#define SF_SAMPLING_SETTINGS(X)                                                               \
+  X(double, tolerance, "most distance of mesh and surface, positive")                         \
+  X(double, angle, "most turn of the normal along an edge in radians, up to pi; more: none")  \
+  X(double, aspect, "how long cells may be for their width, from 1 on; infinity: any length") \
+  X(double, maxTriangles, "most triangles; infinity: any number")                             \
+  X(double, maxSeconds, "time after which what there is is handed out; infinity: any time")   \
+  X(double, hasCamera, "1 if what follows counts, else 0")                                    \
+  X(double, eyeX, "")                                                                         \
+  X(double, eyeY, "")                                                                         \
+  X(double, eyeZ, "")                                                                         \
+  X(double, m0, "view and projection, column by column")                                      \
+  X(double, m1, "")                                                                           \
+  X(double, m2, "")                                                                           \
+  X(double, m3, "")                                                                           \
+  X(double, m4, "")                                                                           \
+  X(double, m5, "")                                                                           \
+  X(double, m6, "")                                                                           \
+  X(double, m7, "")                                                                           \
+  X(double, m8, "")                                                                           \
+  X(double, m9, "")                                                                           \
+  X(double, m10, "")                                                                          \
+  X(double, m11, "")                                                                          \
+  X(double, m12, "")                                                                          \
+  X(double, m13, "")                                                                          \
+  X(double, m14, "")                                                                          \
+  X(double, m15, "")                                                                          \
+  X(double, width, "of the picture in pixels")                                                \
+  X(double, height, "")                                                                       \
+  X(double, pixels, "most distance of mesh and surface on the picture, positive")
+
+#define SF_SURFACE_REPORT_CHOICES(X)        \
+  X(LeftOut, 0, "left-out")                 \
+  X(CrossingSamples, 1, "crossing-samples") \
+  X(ToleranceRaised, 2, "tolerance-raised") \
+  X(AboveTolerance, 3, "above-tolerance")   \
+  X(TimeOver, 4, "time-over")
+
+#define SF_SURFACE_REPORT_RECORD(X)                                                     \
+  X(double, report, "a choice of SF_SURFACE_REPORT_CHOICES")                            \
+  X(double, face, "the face, or -1")                                                    \
+  X(double, fault, "of a face left out: a choice of SF_SURFACE_FAULT_CHOICES, else -1") \
+  X(double, value, "how many intervals were halved; the tolerance kept to; the deviation; or 0")
+
+#define SF_TESSELLATION_NUMBERS_RECORD(X)                               \
+  X(double, originX, "what positions are relative to")                  \
+  X(double, originY, "")                                                \
+  X(double, originZ, "")                                                \
+  X(double, deviation, "largest distance of mesh and surface measured") \
+  X(double, tolerance, "the tolerance kept to")
+
+#define SF_TESSELLATION_ARRAYS(X)                                                \
+  X(float, positions, "[3n] relative to the origin")                             \
+  X(float, normals, "[3n] unit")                                                 \
+  X(float, uvs, "[2n] parameters of the surface")                                \
+  X(uint32_t, triangles, "[3m] counter-clockwise seen from where normals point") \
+  X(uint32_t, faceStarts, "[f+1] in triangles")                                  \
+  X(uint32_t, strips, "vertices of strips, in the order of OpenGL")              \
+  X(uint32_t, stripStarts, "[s+1]")                                              \
+  X(uint32_t, edges, "vertices along each edge, of one of its faces")            \
+  X(uint32_t, edgeStarts, "[e+1]")                                               \
+  X(uint32_t, same, "[n] the first vertex at the same place")                    \
+  X(SfSurfaceReport, reports, "[r] what is to be told")                          \
+  X(SfTessellationNumbers, numbers, "[1]")
+
 #endif

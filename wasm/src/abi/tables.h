@@ -73,5 +73,11 @@ SF_FILL_ARRAYS(SF_ARRAY)
 #define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfSmooth, type, name)
 SF_SMOOTH_ARRAYS(SF_ARRAY)
 #undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfSurfaces, type, name)
+SF_SURFACES_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfTessellation, type, name)
+SF_TESSELLATION_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
 
 }  // namespace sf
