@@ -1,9 +1,7 @@
-// Curves against circles and polynomials, and their samples against the tolerance, densely.
+// Curves against circles and polynomials.
 #include "surface/nurbs_curve.h"
 
-#include <algorithm>
 #include <cmath>
-#include <random>
 
 #include <doctest/doctest.h>
 
@@ -29,28 +27,6 @@ Curve circle(uint32_t dimension) {
     c.weights.push_back(p[2]);
   }
   return c;
-}
-
-std::vector<double> samplesOf(const NurbsCurve& curve, double tolerance, double angle = 10) {
-  CurveSampling sampling;
-  sampling.tolerance = tolerance, sampling.angle = angle;
-  std::vector<double> ts;
-  sampleCurve(curve, sampling, ts);
-  return ts;
-}
-
-/// The largest distance of the curve from a chord, looked at in many places.
-double deviation(const NurbsCurve& curve, const std::vector<double>& ts) {
-  double most = 0;
-  for (size_t i = 0; i + 1 < ts.size(); ++i) {
-    const Vec3 a = curve.at(ts[i]).at, b = curve.at(ts[i + 1]).at, d = b - a;
-    for (int k = 1; k < 40; ++k) {
-      const Vec3 p = curve.at(ts[i] + k / 40.0 * (ts[i + 1] - ts[i])).at;
-      const double x = std::clamp(dot(p - a, d) / dot(d, d), 0.0, 1.0);
-      most = std::max(most, distance(p, a + x * d));
-    }
-  }
-  return most;
 }
 
 }  // namespace
@@ -85,53 +61,4 @@ TEST_CASE("NurbsCurve: a polynomial on any knots") {
     CHECK(length(p.first - Vec3{1, 2 * t, 3 * t * t}) < 1e-11);
     CHECK(length(p.second - Vec3{0, 2, 6 * t}) < 1e-10);
   }
-}
-
-TEST_CASE(
-    "sampleCurve: within the tolerance, with few samples, those of a coarser one among them") {
-  const NurbsCurve curve = circle(2).made();
-  std::vector<double> coarse;
-  for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6}) {
-    const std::vector<double> ts = samplesOf(curve, tolerance);
-    CHECK(std::is_sorted(ts.begin(), ts.end()));
-    CHECK(ts.front() == 0);
-    CHECK(ts.back() == 4);
-    CHECK(deviation(curve, ts) <= tolerance * (1 + 1e-6));
-    // Chords of a circle: as many as there must be, but for halving.
-    const double least = kPi / std::acos(1 - tolerance);
-    CHECK(ts.size() - 1 <= std::max(4.0, 2.2 * least));
-    CHECK(std::includes(ts.begin(), ts.end(), coarse.begin(), coarse.end()));
-    coarse = ts;
-  }
-}
-
-TEST_CASE("sampleCurve: noisy curves keep to the tolerance, the angle and the length") {
-  for (uint32_t seed = 1; seed <= 60; ++seed) {
-    CAPTURE(seed);
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> any(-1, 1);
-    const uint32_t degree = 1 + random() % 5, count = degree + 1 + random() % 12;
-    Curve c{degree, 3, {}, {}, {}};
-    for (uint32_t i = 0; i < count + degree + 1; ++i) c.knots.push_back(i);
-    for (uint32_t i = 0; i < 3 * count; ++i) c.poles.push_back(any(random));
-    const NurbsCurve curve = c.made();
-    CurveSampling sampling;
-    sampling.tolerance = 1e-3, sampling.angle = 0.3, sampling.longest = 0.1;
-    std::vector<double> ts;
-    sampleCurve(curve, sampling, ts);
-    // Tests at a few places say nothing for certain, but seldom too little.
-    CHECK(deviation(curve, ts) <= 1.5e-3);
-    for (size_t i = 0; i + 1 < ts.size(); ++i)
-      CHECK(distance(curve.at(ts[i]).at, curve.at(ts[i + 1]).at) <= 0.1 + 1e-12);
-    for (const double b : curve.spans().breaks())
-      CHECK(std::binary_search(ts.begin(), ts.end(), b));
-  }
-}
-
-TEST_CASE("sampleCurve: a curve that stands still ends") {
-  Curve c{2, 2, {0, 0, 0, 1, 1, 1}, std::vector<double>(6, 0.0), {}};
-  CHECK(samplesOf(c.made(), 1e-3) == std::vector<double>{0, 1});
-  // A cusp: the tangent turns about at a place that no break tells of.
-  Curve cusp{3, 2, {0, 0, 0, 0, 1, 1, 1, 1}, {0, 0, 1, 1, 0, 1, 1, 0}, {}};
-  CHECK(samplesOf(cusp.made(), 1e-3, 0.1).size() < 500);
 }

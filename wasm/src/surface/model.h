@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/array_view.h"
+#include "base/charge.h"
 #include "base/point2.h"
 #include "base/status.h"
 #include "base/vec.h"

@@ -5,22 +5,8 @@
 namespace sf {
 namespace {
 
-constexpr uint32_t kMostHalvings = 30;
-
-/// An interval that may have to be halved, with what is known at its ends.
-struct Interval {
-  double a, b;
-  CurvePoint from, to;
-  uint32_t halvings;
-};
-
-double distanceFromChord(Vec3 p, Vec3 a, Vec3 b) {
-  const Vec3 d = b - a;
-  const double square = dot(d, d);
-  double x = square > 0 ? dot(p - a, d) / square : 0;
-  x = x < 0 ? 0 : x > 1 ? 1 : x;
-  return distance(p, a + x * d);
-}
+/// A turn of less than this, in radians, is none.
+constexpr double kCorner = 1e-6;
 
 }  // namespace
 
@@ -64,47 +50,15 @@ CurvePoint NurbsCurve::at(double t) const {
   return p;
 }
 
-void sampleCurve(const NurbsCurve& curve, const CurveSampling& sampling,
-                 std::vector<double>& parameters) {
-  const auto isStraight = [&](const Interval& i) {
-    if (distance(i.from.at, i.to.at) > sampling.longest) return false;
-    Vec3 before = i.from.first;
-    double turn = 0;
-    for (const double x : {0.25, 0.5, 0.75}) {
-      const CurvePoint p = curve.at(i.a + x * (i.b - i.a));
-      if (distanceFromChord(p.at, i.from.at, i.to.at) > sampling.tolerance) return false;
-      turn += angleBetween(before, p.first);
-      before = p.first;
-    }
-    return turn + angleBetween(before, i.to.first) <= sampling.angle;
-  };
+void appendCorners(const NurbsCurve& curve, double from, double to, std::vector<double>& corners) {
   const ArrayView<const double> breaks = curve.spans().breaks();
-  std::vector<Interval> open;
-  for (uint32_t s = 0; s < curve.spans().count(); ++s) {
+  for (size_t s = 1; s + 1 < breaks.size(); ++s) {
+    const double t = breaks[s];
+    if (!(from < t && t < to)) continue;
     // The tangent at the end of a span is that of the span itself, a little before.
-    const double a = breaks[s], b = breaks[s + 1];
-    const auto at = [&](double t) {
-      CurvePoint p = curve.at(t);
-      if (t == b) p.first = curve.at(b - 1e-9 * (b - a)).first;
-      return p;
-    };
-    open.push_back({a, b, at(a), at(b), 0});
-    while (!open.empty()) {
-      const Interval i = open.back();
-      open.pop_back();
-      const double middle = 0.5 * (i.a + i.b);
-      const bool isSmall = i.halvings == kMostHalvings || middle <= i.a || middle >= i.b;
-      if (isSmall || isStraight(i)) {
-        parameters.push_back(i.a);
-        continue;
-      }
-      const CurvePoint p = curve.at(middle);
-      // The first half is the next to be looked at.
-      open.push_back({middle, i.b, p, i.to, i.halvings + 1});
-      open.push_back({i.a, middle, i.from, p, i.halvings + 1});
-    }
+    const Vec3 before = curve.at(t - 1e-9 * (t - breaks[s - 1])).first;
+    if (angleBetween(before, curve.at(t).first) > kCorner) corners.push_back(t);
   }
-  parameters.push_back(breaks[breaks.size() - 1]);
 }
 
 }  // namespace sf

@@ -1,7 +1,6 @@
-// Curves of space or of a surface's parameters, rational or not, in Bézier form, and the samples that they are drawn by.
+// Curves of space or of a surface's parameters, rational or not, in Bézier form.
 //
-// Source: Kumar, sec. 2: trimming curves are sampled once for all faces that share them, so that there are no cracks.
-// Differs: by bisection, so that samples for a coarser tolerance are among those for a finer one.
+// Source: Kumar, sec. 2.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -37,16 +36,7 @@ class NurbsCurve {
   std::vector<double> points_;  // span after span: [(p + 1) 4] homogeneous
 };
 
-struct CurveSampling {
-  double tolerance = 0;    // most distance of the curve from the chords, positive
-  double angle = 0.35;     // most turn of the tangent along a chord, radians
-  double longest = 1e300;  // most length of a chord
-};
-
-/// Appends parameters from the beginning of the domain to its end, rising, such that the chords between them keep to
-/// `sampling`; breaks are among them. Intervals are halved, at most 30 times: where a curve has a corner that no break tells
-/// of, its angle stays. O(p) time a sample.
-void sampleCurve(const NurbsCurve& curve, const CurveSampling& sampling,
-                 std::vector<double>& parameters);
+/// Appends the breaks strictly between two parameters at which the curve has a corner, in order.
+void appendCorners(const NurbsCurve& curve, double from, double to, std::vector<double>& corners);
 
 }  // namespace sf

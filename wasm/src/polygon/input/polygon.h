@@ -23,6 +23,9 @@ struct PolygonView {
   ArrayView<const uint32_t> starts;   // [r+1] from 0 to n; ring c is starts[c] .. starts[c+1]
   ArrayView<const double> points;     // [2p] isolated vertices strictly inside, numbered from n on;
                                       // in errors, point i is vertex 0 of loop r + i
+  // Whether rings are taken as they turn, the polygon to the left of each: it may then have several parts, and
+  // parts may lie in holes of others.
+  bool isOriented = false;
 };
 
 /// What the two edges at a vertex make of it. Sec. 3, fig. 1; "monotonic" vertices are divided by

@@ -267,7 +267,8 @@ Outcome linkRings(const PolygonView& polygon, bool mayTurn, bool complement, Lin
     bad.status = Status::DegeneratePolygon, bad.loop = c;
     if (size < 3) return bad;
     RingLinker ring(linked, first, first + size - 1);
-    reversed[c] = ring.isCounterClockwise() != ((c == 0) != complement);
+    const bool isOuter = polygon.isOriented ? ring.isCounterClockwise() : c == 0;
+    reversed[c] = ring.isCounterClockwise() != (isOuter != complement);
     if (ring.goesToAndFro()) return bad;
     if (!ring.repeatsItself())
       ring.link(reversed[c]);

@@ -1,0 +1,109 @@
+// The grid lines of a face: how many, and where.
+//
+// Source: Kumar, sec. 2: a grid of lines of equal u and of equal v.
+// Differs: lines halve the intervals between creases again and again, so that one more line moves no other. Their density
+// follows the surface's normal curvature: an interval of width h across which a surface has the second fundamental form L is
+// off its chord by h² L / 8. The form is looked at once for each face; all later choices are made from its largest values.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "base/point2.h"
+#include "surface/nurbs_surface.h"
+#include "surface/sampling.h"
+
+namespace sf {
+
+/// A rectangle of a domain.
+struct Box2 {
+  double u0, u1, v0, v1;
+};
+
+/// The intervals of one parameter.
+class LineTree {
+ public:
+  /// What a surface is like around one value of the parameter, at its worst along the other.
+  struct Column {
+    double at;
+    double form;   // second fundamental form along the parameter
+    double turn;   // of the normal, radians for each unit of the parameter
+    double speed;  // length in space for each unit of the parameter, in the mean
+  };
+
+  LineTree() = default;
+  /// For columns in order, between `breaks`, the first and last of which are the ends.
+  LineTree(std::vector<Column> columns, std::vector<double> breaks);
+
+  /// Halves intervals until their errors and turns are at most these; what was halved at the last kept choice stays down to
+  /// `hysteresis` of it.
+  struct Choice {
+    std::vector<uint32_t> nodes;  // the intervals, in order
+    double error = 0;             // the largest
+  };
+  void choose(double error, double turn, double hysteresis, Choice& choice);
+  /// Halves those that are longer than this.
+  void shorten(double longest, Choice& choice);
+  /// Halves intervals of a choice, where `halved` says so.
+  void halve(const std::vector<uint8_t>& halved, Choice& choice);
+  /// Makes a choice the last kept one.
+  void keep(const Choice& choice);
+  /// [nodes + 1] where the lines are.
+  void lines(const Choice& choice, std::vector<double>& at) const;
+
+  double length(uint32_t node) const { return nodes_[node].length; }
+  double error(uint32_t node) const { return nodes_[node].error; }
+  bool isFlat() const { return isFlat_; }
+
+ private:
+  struct Node {
+    double a, b;
+    double error, turn, length;
+    uint32_t child = kNone;
+    bool isHalved = false;
+  };
+  uint32_t add(double a, double b);
+  uint32_t childOf(uint32_t node);
+  template <class F>
+  void refine(F&& isHalved, Choice& choice);
+
+  std::vector<Column> columns_;
+  std::vector<Node> nodes_;
+  uint32_t roots_ = 0;
+  bool isFlat_ = true;
+};
+
+/// The lines of a face.
+class Density {
+ public:
+  Density() = default;
+  /// Looks at the surface within a box of its domain. O(patches p q) evaluations.
+  Density(const NurbsSurface& surface, Box2 box);
+
+  /// Chooses lines for a tolerance.
+  struct Lines {
+    LineTree::Choice u, v;
+  };
+  void choose(double tolerance, const Fineness& fineness, Lines& lines);
+
+  /// How long an edge's intervals may be beside such cells: as the longer side of a usual cell. Infinite where there is one.
+  double longest(const Lines& lines) const;
+
+  LineTree u, v;
+  /// Whether the surface is a plane within the box.
+  bool isFlat() const { return u.isFlat() && v.isFlat() && twist_ == 0; }
+  /// How far a chord between two points of the domain may be off the surface, nearly.
+  double bound(Point2 a, Point2 b) const {
+    const double du = std::fabs(b.x - a.x), dv = std::fabs(b.y - a.y);
+    return (du * du * formU_ + 2 * du * dv * twist_ + dv * dv * formV_) / 8;
+  }
+  /// The box of the places looked at.
+  Vec3 least{}, greatest{};
+  /// Mean length in space of a unit of u, and of v.
+  double speedU() const { return speedU_; }
+  double speedV() const { return speedV_; }
+
+ private:
+  double twist_ = 0, formU_ = 0, formV_ = 0, speedU_ = 1, speedV_ = 1;
+};
+
+}  // namespace sf

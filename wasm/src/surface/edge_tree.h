@@ -1,0 +1,64 @@
+// The samples of an edge, the same for all its faces.
+//
+// Source: Kumar, sec. 2: no samples are added to one face alone, which would open cracks; sec. 4.2: more samples where those of
+// two curves cross though the curves do not.
+// Differs: samples are the ends of intervals that are halved, so that those for a coarser tolerance are among those for a finer
+// one. How far an interval's chord is off is measured once and kept, so that another tolerance, or a camera that moves, only
+// walks down the tree.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "surface/model.h"
+#include "surface/sampling.h"
+
+namespace sf {
+
+struct EdgeSample {
+  double t;
+  Vec3 at;
+  uint32_t node;  // the interval that begins here, or kNone at the end
+};
+
+class EdgeTree {
+ public:
+  /// For an edge that some face uses. Intervals begin at its ends and wherever it has a corner in space or in a domain.
+  EdgeTree(const Model& model, uint32_t edge);
+
+  /// The samples in order of the parameter, both ends included. Two for a degenerate edge.
+  ///   longest  most length of an interval
+  void select(const Fineness& fineness, double longest, std::vector<EdgeSample>& samples);
+  /// Halves an interval from now on, whatever the tolerance. False if it is too short to be halved: its curve is the
+  /// culprit, not its samples.
+  bool force(uint32_t node);
+  /// How many intervals are halved by force.
+  uint32_t forced() const { return forced_; }
+
+  /// The place of its beginning, 0, or its end, 1.
+  Vec3 end(int which) const { return which == 0 ? breakPoints_.front() : breakPoints_.back(); }
+
+ private:
+  struct Node {
+    double a, b;
+    Vec3 middle;             // of the curve
+    double error;            // most distance of the curve from the chord
+    double turn;             // of its tangent, radians
+    double chord;            // its length
+    uint32_t child = kNone;  // the first of two
+    bool isForced = false;
+    bool isHalved = false;  // at the last selection
+  };
+
+  Vec3 at(double t) const;
+  uint32_t add(double a, Vec3 from, double b, Vec3 to);
+  void halve(uint32_t node, Vec3 from, Vec3 to);
+
+  const Model* model_;
+  uint32_t edge_;
+  std::vector<double> breaks_;
+  std::vector<Vec3> breakPoints_;
+  std::vector<Node> nodes_;  // the first are the intervals between breaks
+  uint32_t forced_ = 0;
+};
+
+}  // namespace sf
