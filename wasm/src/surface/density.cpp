@@ -1,4 +1,6 @@
 #include "surface/density.h"
+#include <cstdio>
+#include <cstdlib>
 
 #include <algorithm>
 #include <cmath>
@@ -21,21 +23,22 @@ LineTree::LineTree(std::vector<Column> columns, std::vector<double> breaks)
 }
 
 uint32_t LineTree::add(double a, double b) {
-  // The columns within, and the next one on either side.
-  const auto before = [](const Column& c, double t) { return c.at < t; };
-  auto first = std::lower_bound(columns_.begin(), columns_.end(), a, before);
-  auto end = std::lower_bound(first, columns_.end(), b, before);
-  if (first != columns_.begin() && (first == columns_.end() || first->at > a)) --first;
-  if (end != columns_.end()) ++end;
-  double form = 0, turn = 0, speed = 0;
+  // The columns that overlap with it.
+  const auto first = std::upper_bound(columns_.begin(), columns_.end(), a,
+                                      [](double t, const Column& c) { return t < c.to; });
+  const auto end = std::lower_bound(first, columns_.end(), b,
+                                    [](const Column& c, double t) { return c.from < t; });
+  double form = 0, turn = 0, twist = 0, speed = 0;
   for (auto c = first; c != end; ++c)
-    form = std::max(form, c->form), turn = std::max(turn, c->turn), speed += c->speed;
+    form = std::max(form, c->form), turn = std::max(turn, c->turn),
+    twist = std::max(twist, c->twist),
+    speed += c->speed * (std::min(b, c->to) - std::max(a, c->from));
   const double h = b - a;
   Node node;
   node.a = a, node.b = b;
   node.error = form * h * h / 8;
-  node.turn = turn * h;
-  node.length = speed / double(std::max<ptrdiff_t>(end - first, 1)) * h;
+  node.turn = turn * h, node.twist = twist * h;
+  node.length = speed;
   nodes_.push_back(node);
   return uint32_t(nodes_.size()) - 1;
 }
@@ -123,22 +126,23 @@ void LineTree::lines(const Choice& choice, std::vector<double>& at) const {
 
 namespace {
 
-/// Values of one parameter to look at a surface: some in each span, within a range.
-std::vector<double> placesIn(const BezierSpans& spans, double from, double to) {
-  std::vector<double> places;
+/// Columns without values, some in each span, within a range; a surface is looked at in the middle of each.
+std::vector<LineTree::Column> columnsIn(const BezierSpans& spans, double from, double to) {
+  std::vector<LineTree::Column> columns;
   const uint32_t count = spans.degree() + (spans.degree() < 3 ? 2 : 1);
   for (uint32_t s = 0; s < spans.count(); ++s) {
     const double a = std::max(spans.breaks()[s], from), b = std::min(spans.breaks()[s + 1], to);
     if (!(a < b)) continue;
-    // Not at the ends: there derivatives are those of a neighbour.
-    for (uint32_t i = 0; i < count; ++i) {
-      const double x = (i + 0.5) / count;
-      // Denser towards the ends, where splines have their largest second derivatives.
-      places.push_back(a + (b - a) * 0.5 * (1 - std::cos(kPi * x)));
-    }
+    // Narrower towards the ends, where splines have their largest second derivatives.
+    const auto place = [&](uint32_t i) {
+      return i == count ? b : a + (b - a) * 0.5 * (1 - std::cos(kPi * i / count));
+    };
+    for (uint32_t i = 0; i < count; ++i) columns.push_back({place(i), place(i + 1), 0, 0, 0, 0});
   }
-  return places;
+  return columns;
 }
+
+double middleOf(const LineTree::Column& column) { return 0.5 * (column.from + column.to); }
 
 /// A range's ends, and the creases within: knots of full multiplicity where tangents or normals jump.
 std::vector<double> creasesIn(const BezierSpans& spans, double from, double to,
@@ -153,12 +157,20 @@ std::vector<double> creasesIn(const BezierSpans& spans, double from, double to,
   return breaks;
 }
 
+/// The length of intervals of which half of a tree's length is made, from the longest on. The many short ones at a narrow
+/// bend are not usual.
 double usualLength(const LineTree& tree, const LineTree::Choice& choice) {
   std::vector<double> lengths;
-  for (const uint32_t n : choice.nodes) lengths.push_back(tree.length(n));
-  const auto middle = lengths.begin() + ptrdiff_t(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  double total = 0;
+  for (const uint32_t n : choice.nodes) {
+    lengths.push_back(tree.length(n));
+    total += lengths.back();
+  }
+  std::sort(lengths.begin(), lengths.end());
+  double above = 0;
+  size_t i = lengths.size();
+  while (i > 1 && above < total / 2) above += lengths[--i];
+  return lengths[std::min(i, lengths.size() - 1)];
 }
 
 }  // namespace
@@ -169,12 +181,12 @@ double Density::longest(const Lines& lines) const {
 }
 
 Density::Density(const NurbsSurface& surface, Box2 box) {
-  const std::vector<double> us = placesIn(surface.u(), box.u0, box.u1),
-                            vs = placesIn(surface.v(), box.v0, box.v1);
-  const size_t nu = us.size(), nv = vs.size();
-  std::vector<LineTree::Column> columnsU(nu), columnsV(nv);
-  for (size_t i = 0; i < nu; ++i) columnsU[i] = {us[i], 0, 0, 0};
-  for (size_t j = 0; j < nv; ++j) columnsV[j] = {vs[j], 0, 0, 0};
+  std::vector<LineTree::Column> columnsU = columnsIn(surface.u(), box.u0, box.u1),
+                                columnsV = columnsIn(surface.v(), box.v0, box.v1);
+  const size_t nu = columnsU.size(), nv = columnsV.size();
+  std::vector<double> us, vs;
+  for (const auto& c : columnsU) us.push_back(middleOf(c));
+  for (const auto& c : columnsV) vs.push_back(middleOf(c));
   double twist = 0, size = 0;
   for (size_t i = 0; i < nu; ++i)
     for (size_t j = 0; j < nv; ++j) {
@@ -184,21 +196,24 @@ Density::Density(const NurbsSurface& surface, Box2 box) {
       const Vec3 m = p.normal();
       const double area = length(m), speedU = length(p.u), speedV = length(p.v);
       LineTree::Column &cu = columnsU[i], &cv = columnsV[j];
-      cu.speed += speedU / double(nv), cv.speed += speedV / double(nu);
+      cu.speed += speedU * (cv.to - cv.from) / (box.v1 - box.v0);
+      cv.speed += speedV * (cu.to - cu.from) / (box.u1 - box.u0);
       size = std::max({size, speedU * (box.u1 - box.u0), speedV * (box.v1 - box.v0)});
       if (!(area > 1e-12 * speedU * speedV)) continue;
       const Vec3 n = (1 / area) * m;
       cu.form = std::max(cu.form, std::fabs(dot(n, p.uu)));
       cv.form = std::max(cv.form, std::fabs(dot(n, p.vv)));
-      twist = std::max(twist, std::fabs(dot(n, p.uv)));
+      const double mixed = std::fabs(dot(n, p.uv));
+      cu.twist = std::max(cu.twist, mixed), cv.twist = std::max(cv.twist, mixed);
+      twist = std::max(twist, mixed);
       // How fast the unit normal turns: the part of its derivative across it.
       const Vec3 mu = cross(p.uu, p.v) + cross(p.u, p.uv), mv = cross(p.uv, p.v) + cross(p.u, p.vv);
       cu.turn = std::max(cu.turn, length(mu - dot(mu, n) * n) / area);
       cv.turn = std::max(cv.turn, length(mv - dot(mv, n) * n) / area);
     }
   speedU_ = speedV_ = 0;
-  for (const auto& c : columnsU) speedU_ += c.speed / double(nu);
-  for (const auto& c : columnsV) speedV_ += c.speed / double(nv);
+  for (const auto& c : columnsU) speedU_ += c.speed * (c.to - c.from) / (box.u1 - box.u0);
+  for (const auto& c : columnsV) speedV_ += c.speed * (c.to - c.from) / (box.v1 - box.v0);
   const double du = box.u1 - box.u0, dv = box.v1 - box.v0;
   const auto round = [&](LineTree::Column& c, double width) {
     if (c.form * width * width < kRounding * size) c.form = 0;
@@ -258,25 +273,29 @@ void Density::choose(double tolerance, const Fineness& fineness, Lines& lines) {
   lines = best;
   // A twisted surface that is straight along both parameters is off by a quarter of its twist.
   if (twist_ > 0 && tolerance < Sampling::kNoLimit) {
-    for (int k = 0; k < 2 * int(kMostDepth); ++k) {
+    bool isOff = true;
+    for (uint32_t k = 0; k < kMostDepth && isOff; ++k) {
+      isOff = false;
       std::vector<double> us, vs;
       u.lines(lines.u, us), v.lines(lines.v, vs);
-      double hu = 0, hv = 0;
-      for (size_t i = 0; i + 1 < us.size(); ++i) hu = std::max(hu, us[i + 1] - us[i]);
-      for (size_t j = 0; j + 1 < vs.size(); ++j) hv = std::max(hv, vs[j + 1] - vs[j]);
-      if (twist_ * hu * hv / 4 <= tolerance) break;
-      const bool alongU = hu * speedU_ >= hv * speedV_;
-      LineTree::Choice& longer = alongU ? lines.u : lines.v;
-      std::vector<uint8_t> halved;
-      const std::vector<double>& at = alongU ? us : vs;
-      for (size_t i = 0; i + 1 < at.size(); ++i)
-        halved.push_back(at[i + 1] - at[i] > 0.75 * (alongU ? hu : hv));
-      (alongU ? u : v).halve(halved, longer);
+      std::vector<uint8_t> halvedU(us.size() - 1), halvedV(vs.size() - 1);
+      for (size_t i = 0; i + 1 < us.size(); ++i)
+        for (size_t j = 0; j + 1 < vs.size(); ++j) {
+          const uint32_t nu = lines.u.nodes[i], nv = lines.v.nodes[j];
+          const double hu = us[i + 1] - us[i], hv = vs[j + 1] - vs[j];
+          if (std::min(u.twist(nu) * hv, v.twist(nv) * hu) <= 4 * tolerance) continue;
+          (u.length(nu) >= v.length(nv) ? halvedU[i] : halvedV[j]) = 1;
+          isOff = true;
+        }
+      u.halve(halvedU, lines.u), v.halve(halvedV, lines.v);
     }
   }
   if (isFlat() || fineness.aspect() == Sampling::kNoLimit) return;
   if (lines.u.nodes.size() == 1 && lines.v.nodes.size() == 1) return;
   const double lu = usualLength(u, lines.u), lv = usualLength(v, lines.v);
+  if (getenv("DBG"))
+    fprintf(stderr, "lines %zu %zu len %g %g tol %g\n", lines.u.nodes.size(), lines.v.nodes.size(),
+            lu, lv, tolerance);
   u.shorten(fineness.aspect() * lv, lines.u);
   v.shorten(fineness.aspect() * lu, lines.v);
 }
