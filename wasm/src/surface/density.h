@@ -74,6 +74,9 @@ class LineTree {
   bool isFlat_ = true;
 };
 
+/// The breaks of a surface where its tangents turn at once, all along or in part.
+std::vector<double> creasesOf(const NurbsSurface& surface, bool alongU);
+
 /// The lines of a face.
 class Density {
  public:
@@ -105,6 +108,9 @@ class Density {
   double speedV() const { return speedV_; }
 
  private:
+  void look(const NurbsSurface& surface, Box2 box, std::vector<LineTree::Column>& columnsU,
+            std::vector<LineTree::Column>& columnsV);
+
   double twist_ = 0, formU_ = 0, formV_ = 0, speedU_ = 1, speedV_ = 1;
 };
 

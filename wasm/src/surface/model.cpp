@@ -129,8 +129,9 @@ class ModelReader {
 
 void ModelReader::fail(SurfaceFault fault, uint32_t face, uint32_t loop, uint32_t use,
                        uint32_t edge) {
-  if (m_.faces[face].isLeftOut) return;
-  m_.faces[face].isLeftOut = true;
+  if (m_.faces[face].isLeftOut || m_.faces[face].isSuspect) return;
+  // Where a loop that leaves the domain also crosses another, that is the better thing to say.
+  (fault == SurfaceFault::TrimOutside ? m_.faces[face].isSuspect : m_.faces[face].isLeftOut) = true;
   faults.push_back({fault, face, loop, use, kNone, edge});
 }
 
@@ -385,6 +386,32 @@ void ModelReader::unite() {
     if (!m_.faces[m_.uses[u].face].isLeftOut) ends.unite(end(u, true), end(m_.after(u), false));
   for (uint32_t e = 0; e < m_.edges.size(); ++e)
     if (m_.edges[e].isDegenerate) ends.unite(2 * e, 2 * e + 1);
+  // Loops that touch do so at a vertex of both.
+  struct Corner {
+    Point2 at;
+    uint32_t end;
+  };
+  std::vector<Corner> corners;
+  for (const ModelFace& face : m_.faces) {
+    if (face.isLeftOut || face.endLoop - face.firstLoop < 2) continue;
+    corners.clear();
+    const BezierSpans &u = face.surface->u(), &v = face.surface->v();
+    const double nearU = kDomainSlack * (u.breaks()[u.count()] - u.breaks()[0]),
+                 nearV = kDomainSlack * (v.breaks()[v.count()] - v.breaks()[0]);
+    for (uint32_t use = m_.loops[face.firstLoop].firstUse; use < m_.loops[face.endLoop - 1].endUse;
+         ++use) {
+      const ModelEdge& edge = m_.edges[m_.uses[use].edge];
+      if (edge.isDegenerate) continue;
+      corners.push_back(
+          {m_.uses[use].curve.at(m_.uses[use].isReversed ? edge.to : edge.from), end(use, false)});
+    }
+    std::sort(corners.begin(), corners.end(),
+              [](const Corner& a, const Corner& b) { return a.at.x < b.at.x; });
+    for (size_t i = 0; i < corners.size(); ++i)
+      for (size_t k = i + 1; k < corners.size() && corners[k].at.x - corners[i].at.x <= nearU; ++k)
+        if (std::fabs(corners[k].at.y - corners[i].at.y) <= nearV)
+          ends.unite(corners[i].end, corners[k].end);
+  }
   std::vector<uint32_t> numbers(2 * m_.edges.size(), kNone);
   m_.vertices = 0;
   for (uint32_t e = 0; e < m_.edges.size(); ++e)

@@ -61,6 +61,7 @@ struct ModelFace {
   std::unique_ptr<NurbsSurface> surface;
   bool isReversed = false;  // its normal is -(Su x Sv)
   bool isLeftOut = false;   // faulty: it has no part in anything
+  bool isSuspect = false;   // its fault is named, and a better one may be found once it is sampled
   uint32_t firstLoop = 0, endLoop = 0;
 };
 
