@@ -237,7 +237,7 @@ bool TrimmedSurfaces::meshAll(const Sampling& sampling, Work& work) {
   while (!open.empty()) {
     const uint32_t f = open.back();
     const FaceProblem problem =
-        mesher.run(f, samples_, densities_[f], lines_[f], tolerances[f], meshes_[f]);
+        mesher.run(f, samples_, densities_[f], lines_[f], tolerances[f], false, meshes_[f]);
     if (problem.kind == FaceProblem::Kind::Ended) return false;
     if (problem.kind == FaceProblem::Kind::None) {
       open.pop_back(), isOpen[f] = 0;
@@ -286,7 +286,8 @@ void TrimmedSurfaces::assemble(Tessellation& result) const {
     const FaceMesh& mesh = meshes_[f];
     bases[f] = base;
     for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
-      const Vec3 p = mesh.positions[v] - result.origin, n = mesh.normals[v];
+      const Vec3 p = mesh.positions[v] - result.origin;
+      const Vec3 n = model_.faces[f].isReversed ? -mesh.normals[v] : mesh.normals[v];
       const size_t at = size_t(base) + v;
       result.positions[3 * at] = float(p.x), result.positions[3 * at + 1] = float(p.y);
       result.positions[3 * at + 2] = float(p.z);
