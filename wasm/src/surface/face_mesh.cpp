@@ -57,10 +57,10 @@ void turnRound(FaceMesh& mesh) {
 }  // namespace
 
 struct FaceMesher::State {
-  State(const Model& model, Work& work) : model(model), work(work) {}
+  explicit State(const Model& model) : model(model) {}
 
   const Model& model;
-  Work& work;
+  Work* work = nullptr;  // of the call
   Trace trace;
   PolygonTriangulator triangulator;
   BandPatch patch;
@@ -120,7 +120,7 @@ struct FaceMesher::State {
   void finish();
 };
 
-FaceMesher::FaceMesher(const Model& model, Work& work) : state_(new State(model, work)) {}
+FaceMesher::FaceMesher(const Model& model) : state_(new State(model)) {}
 FaceMesher::~FaceMesher() = default;
 
 uint32_t FaceMesher::State::addVertex(Point2 uv, Vec3 at, Vec3 normal, FaceMesh::Role role) {
@@ -290,15 +290,16 @@ FaceProblem FaceMesher::State::checkRings() {
       xy.push_back(rings.at[i].x), xy.push_back(rings.at[i].y);
     starts.push_back(uint32_t(xy.size() / 2));
   }
-  Outcome outcome = sweep.run({xy, starts, {}, false}, true, true, work, linked, seen);
+  Outcome outcome = sweep.run({xy, starts, {}, false}, true, true, *work, linked, seen);
   if (outcome.ok()) return {};
   if (outcome.loop != kNone) outcome.loop = order[outcome.loop];
   if (outcome.otherLoop != kNone) outcome.otherLoop = order[outcome.otherLoop];
   return problemOf(outcome);
 }
 
-FaceProblem FaceMesher::check(uint32_t face, const EdgeSamples& samples) {
+FaceProblem FaceMesher::check(uint32_t face, const EdgeSamples& samples, Work& work) {
   State& s = *state_;
+  s.work = &work;
   FaceMesh mesh;
   s.updates = false;
   s.begin(face, samples, mesh);
@@ -323,7 +324,7 @@ bool FaceMesher::State::layOut(const Density::Lines& lines) {
   localUs.clear(), localVs.clear();
   for (const double u : us) localUs.push_back((u - origin.x) * scale.x);
   for (const double v : vs) localVs.push_back((v - origin.y) * scale.y);
-  if (!work.tick(20 * us.size() * vs.size())) return false;
+  if (!work->tick(20 * us.size() * vs.size())) return false;
   trace.run(rings.at, rings.starts, localUs, localVs);
   // Intervals and strips that the last run had too.
   const auto findNew = [](const std::vector<double>& before, const std::vector<double>& now,
@@ -517,8 +518,8 @@ FaceProblem FaceMesher::State::triangulateBand() {
   options.delaunay = true;
   PolygonTriangulation found;
   const Outcome outcome =
-      triangulator.triangulate({xy, starts, islands, true}, options, work, found);
-  if (!work.going()) return problemOf({work.status()});
+      triangulator.triangulate({xy, starts, islands, true}, options, *work, found);
+  if (!work->going()) return problemOf({work->status()});
   if (!outcome.ok()) {
     const FaceProblem problem = checkRings();
     if (problem.kind != FaceProblem::Kind::None) return problem;
@@ -633,8 +634,8 @@ bool FaceMesher::State::patchBand() {
   size_t kept = 0;
   std::vector<uint8_t> stays;
   band.corners = mesh->band;
-  if (!patch.run({bandAt, border, islands, isGone, changed}, triangulator, work, band.corners, kept,
-                 stays))
+  if (!patch.run({bandAt, border, islands, isGone, changed}, triangulator, *work, band.corners,
+                 kept, stays))
     return false;
   bandOff.clear();
   for (size_t t = 0; t < stays.size(); ++t)
@@ -648,7 +649,7 @@ bool FaceMesher::State::refineBand() {
   band.unused.clear(), band.edgeFrom.clear();
   bandAt.resize(mesh->positions.size());
   for (uint32_t v = 0; v < bandAt.size(); ++v) bandAt[v] = scaled(mesh->uvs[v]);
-  if (!findTwins(band.corners, uint32_t(bandAt.size()), work, band.twins)) return false;
+  if (!findTwins(band.corners, uint32_t(bandAt.size()), *work, band.twins)) return false;
   if (density->isFlat()) {
     std::fill(bandOff.begin(), bandOff.end(), 0);
     return true;
@@ -709,7 +710,7 @@ bool FaceMesher::State::refineBand() {
         std::copy(c, c + 3, &known[3 * t]);
     }
     if (spots.empty() || bandAt.size() > most || round + 1 == kMostRounds) break;
-    if (!work.tick(400 * spots.size() + 300 * triangles)) return false;
+    if (!work->tick(400 * spots.size() + 300 * triangles)) return false;
     for (const Spot& spot : spots) {
       // What an earlier insertion of the round has changed is looked at again in the next one.
       const uint32_t t = spot.half / 3;
@@ -739,12 +740,12 @@ bool FaceMesher::State::refineBand() {
       band.at = bandAt, band.metric = bandAt;
       opposite.clear();
       band.insert({spot.half, spot.onEdge}, v, opposite);
-      legalize(band, opposite, 64, work);
+      legalize(band, opposite, 64, *work);
       known.resize(band.corners.size(), kNone);
     }
   }
   for (const double off : bandOff) mesh->deviation = std::max(mesh->deviation, off);
-  return work.going();
+  return work->going();
 }
 
 /// Triangles and strips of the whole face, on its own side, and what the next update begins with.
@@ -768,8 +769,8 @@ void FaceMesher::State::finish() {
     if (a != b && b != c && c != a) corners.insert(corners.end(), {a, b, c});
   }
   std::vector<uint32_t> twins, strips, starts;
-  findTwins(corners, uint32_t(mesh->positions.size()), work, twins);
-  makeStrips(corners, twins, work, strips, starts);
+  findTwins(corners, uint32_t(mesh->positions.size()), *work, twins);
+  makeStrips(corners, twins, *work, strips, starts);
   mesh->triangles.swap(quadTriangles);
   mesh->triangles.insert(mesh->triangles.end(), corners.begin(), corners.end());
   mesh->strips.swap(quadStrips), mesh->stripStarts.swap(quadStarts);
@@ -780,8 +781,10 @@ void FaceMesher::State::finish() {
 }
 
 FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& density,
-                            Density::Lines& lines, double tolerance, bool updates, FaceMesh& mesh) {
+                            Density::Lines& lines, double tolerance, bool updates, Work& work,
+                            FaceMesh& mesh) {
   State& s = *state_;
+  s.work = &work;
   s.density = &density, s.tolerance = tolerance;
   s.updates = updates && !mesh.band.empty();
   s.begin(face, samples, mesh);
@@ -799,7 +802,7 @@ FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& 
     if (!s.updates || !s.patchBand()) problem = s.triangulateBand();
     if (problem.kind == FaceProblem::Kind::None) {
       if (s.refineBand()) s.finish();
-      if (!s.work.going()) problem.kind = FaceProblem::Kind::Ended;
+      if (!work.going()) problem.kind = FaceProblem::Kind::Ended;
     }
   }
   if (problem.kind != FaceProblem::Kind::None) mesh = {};

@@ -62,17 +62,18 @@ struct FaceProblem {
 
 class FaceMesher {
  public:
-  FaceMesher(const Model& model, Work& work);
+  explicit FaceMesher(const Model& model);
   ~FaceMesher();
 
   /// Meshes a face. `lines` may be refined where the grid is measured to be off.
   ///   tolerance  most distance of mesh and surface
   ///   mesh       with `updates` that of an earlier run, of which whatever still fits stays; after a problem it is empty
   FaceProblem run(uint32_t face, const EdgeSamples& samples, Density& density,
-                  Density::Lines& lines, double tolerance, bool updates, FaceMesh& mesh);
+                  Density::Lines& lines, double tolerance, bool updates, Work& work,
+                  FaceMesh& mesh);
 
   /// Only whether the rings of a face are those of a polygon.
-  FaceProblem check(uint32_t face, const EdgeSamples& samples);
+  FaceProblem check(uint32_t face, const EdgeSamples& samples, Work& work);
 
  private:
   struct State;
