@@ -125,6 +125,12 @@ void TrimmedSurfaces::leaveOut(uint32_t face, const ModelFault& fault) {
   faults_.push_back(fault);
 }
 
+void TrimmedSurfaces::plantTree(uint32_t edge) {
+  const uint32_t first = firstUses_[edge], end = firstUses_[edge + 1];
+  trees_[edge] = std::make_unique<EdgeTree>(
+      model_, edge, ArrayView<const uint32_t>(usesOf_.data() + first, end - first));
+}
+
 std::unique_ptr<TrimmedSurfaces> TrimmedSurfaces::open(Model&& model, Work& work, Charge& charge,
                                                        std::vector<ModelFault>& faults) {
   (void)charge;
@@ -137,7 +143,7 @@ std::unique_ptr<TrimmedSurfaces> TrimmedSurfaces::open(Model&& model, Work& work
   s.vertexAt_.resize(m.vertices);
   s.densities_.resize(faces), s.lines_.resize(faces), s.meshes_.resize(faces);
   s.chosen_.resize(faces), s.chosenFor_.assign(faces, 0), s.tolerances_.assign(faces, 0);
-  s.isChanged_.assign(faces, 0);
+  s.isChanged_.assign(faces, 0), s.isEdited_.assign(faces, 0);
   for (const ModelFace& face : m.faces) s.isReversed_.push_back(face.isReversed);
   s.mesher_ = std::make_unique<FaceMesher>(m);
   // The uses of each edge, in faces that are there.
@@ -153,10 +159,7 @@ std::unique_ptr<TrimmedSurfaces> TrimmedSurfaces::open(Model&& model, Work& work
   std::vector<uint8_t> isPlaced(m.vertices, 0);
   for (uint32_t e = 0; e < edges; ++e) {
     if (s.firstUses_[e] == s.firstUses_[e + 1]) continue;
-    s.trees_[e] = std::make_unique<EdgeTree>(
-        m, e,
-        ArrayView<const uint32_t>(s.usesOf_.data() + s.firstUses_[e],
-                                  s.firstUses_[e + 1] - s.firstUses_[e]));
+    s.plantTree(e);
     const ModelEdge& edge = m.edges[e];
     for (const uint32_t v : {edge.fromVertex, edge.toVertex}) {
       if (isPlaced[v]) continue;
@@ -243,7 +246,7 @@ void TrimmedSurfaces::chooseAll(const Sampling& sampling, const Fineness& finene
       if (!isSame) {
         chosen_[f] = lines, lines_[f] = lines;
         isChanged_[f] = 1;
-      } else if (meshes_[f].deviation > tolerance) {
+      } else if (meshes_[f].deviation > tolerance || isEdited_[f]) {
         isChanged_[f] = 1;
       }
       chosenFor_[f] = target, tolerances_[f] = tolerance;
@@ -283,7 +286,7 @@ bool TrimmedSurfaces::meshFaces(const Sampling& sampling, bool updates, Work& wo
                                              updates, work, meshes_[f]);
     if (problem.kind == FaceProblem::Kind::Ended) return false;
     if (problem.kind == FaceProblem::Kind::None) {
-      open.pop_back(), isOpen[f] = 0;
+      open.pop_back(), isOpen[f] = 0, isEdited_[f] = 0;
       work.setFraction(double(++done) / total);
       if (!work.tick(1000)) return false;
       continue;
@@ -441,6 +444,152 @@ bool TrimmedSurfaces::update(const Sampling& given, const TessellationLimits& li
     layout_.layOut(meshes_, isReversed_, 0.5 * (model_.least + model_.greatest), kSlack);
   tell(used, factor, isOver, result);
   return true;
+}
+
+std::vector<uint32_t> TrimmedSurfaces::edgesOf(uint32_t face) const {
+  std::vector<uint32_t> edges;
+  for (uint32_t l = model_.faces[face].firstLoop; l < model_.faces[face].endLoop; ++l)
+    for (uint32_t u = model_.loops[l].firstUse; u < model_.loops[l].endUse; ++u)
+      edges.push_back(model_.uses[u].edge);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+/// Whether no other face has an edge, nor its ends.
+bool TrimmedSurfaces::isAlone(uint32_t edge, uint32_t face) const {
+  for (uint32_t i = firstUses_[edge]; i < firstUses_[edge + 1]; ++i)
+    if (model_.uses[usesOf_[i]].face != face) return false;
+  return true;
+}
+
+/// Begins edges of a face anew, where its surface and its curves have them now.
+void TrimmedSurfaces::replant(uint32_t face, ArrayView<const uint32_t> edges) {
+  for (const uint32_t e : edges) {
+    plantTree(e);
+    for (const int end : {0, 1})
+      vertexAt_[end == 0 ? model_.edges[e].fromVertex : model_.edges[e].toVertex] =
+          trees_[e]->end(end);
+    samples_.of[e].clear();
+  }
+  densities_[face] = Density(*model_.faces[face].surface, boxOf(model_, face, samples_));
+}
+
+/// Whether the loops of a face are still right, at the sampling of the first check.
+bool TrimmedSurfaces::checkAgain(uint32_t face, Work& work, ModelFault& fault) {
+  Sampling sampling;
+  sampling.tolerance = kCheckTolerance * model_.diagonal();
+  const Fineness fineness(sampling);
+  const std::vector<uint32_t> edges = edgesOf(face);
+  std::vector<std::vector<EdgeSample>> before;
+  for (const uint32_t e : edges) before.push_back(samples_.of[e]), selectEdge(e, fineness);
+  numberPlaces();
+  std::vector<uint32_t> touched;
+  bool isRight = false;
+  for (;;) {
+    const FaceProblem problem = mesher_->check(face, samples_, work);
+    isRight = problem.kind == FaceProblem::Kind::None;
+    if (problem.kind != FaceProblem::Kind::Crossing) break;
+    touched.clear();
+    if (!settle(face, problem, false, touched, fault)) break;
+    for (const uint32_t e : touched) selectEdge(e, fineness);
+    numberPlaces();
+  }
+  // With the samples of the check the box around the face is known.
+  if (isRight)
+    densities_[face] = Density(*model_.faces[face].surface, boxOf(model_, face, samples_));
+  for (size_t i = 0; i < edges.size(); ++i) samples_.of[edges[i]].swap(before[i]);
+  numberPlaces();
+  return isRight;
+}
+
+bool TrimmedSurfaces::movePole(uint32_t face, uint32_t pole, Vec3 to, double weight, Work& work,
+                               ModelFault& fault) {
+  ModelFace& f = model_.faces[face];
+  fault = {SurfaceFault::BadEdge, face, kNone, kNone, kNone, kNone};
+  const std::vector<uint32_t> edges = edgesOf(face);
+  for (const uint32_t e : edges)
+    if (!isAlone(e, face)) return fault.edge = e, false;
+  const SplineArrays before = f.arrays;
+  double* at = &f.arrays.poles[3 * size_t(pole)];
+  at[0] = to.x, at[1] = to.y, at[2] = to.z;
+  if (weight > 0) {
+    if (f.arrays.weights.empty()) f.arrays.weights.assign(f.arrays.poles.size() / 3, 1);
+    f.arrays.weights[pole] = weight;
+  }
+  // Loops lie in the domain, so they stay right.
+  f.surface = std::make_unique<NurbsSurface>(f.arrays.surface());
+  for (const uint32_t e : edges) model_.edges[e].curve = nullptr;
+  replant(face, edges);
+  if (!checkAgain(face, work, fault)) {
+    f.arrays = before;
+    f.surface = std::make_unique<NurbsSurface>(f.arrays.surface());
+    replant(face, edges);
+    return false;
+  }
+  meshes_[face] = {};
+  isEdited_[face] = 1;
+  return true;
+}
+
+bool TrimmedSurfaces::moveTrim(uint32_t face, uint32_t loop, uint32_t use, uint32_t pole, Point2 to,
+                               Work& work, ModelFault& fault) {
+  const uint32_t number = model_.loops[model_.faces[face].firstLoop + loop].firstUse + use;
+  fault = {SurfaceFault::BadEdge, face, loop, use, kNone, model_.uses[number].edge};
+  // Poles that have to move: this one, and at an end of the curve that of the neighbour that meets it there.
+  struct Move {
+    uint32_t use, pole;
+  };
+  std::vector<Move> moves = {{number, pole}};
+  const auto poleAt = [&](uint32_t u, uint32_t k) {
+    const std::vector<double>& poles = model_.uses[u].arrays.poles;
+    return Point2{poles[2 * size_t(k)], poles[2 * size_t(k) + 1]};
+  };
+  const auto lastOf = [&](uint32_t u) {
+    return uint32_t(model_.uses[u].arrays.poles.size() / 2) - 1;
+  };
+  for (const bool isLast : {false, true}) {
+    if (pole != (isLast ? lastOf(number) : 0)) continue;
+    const bool isAtEnd = isLast != model_.uses[number].isReversed;
+    const uint32_t other = isAtEnd ? model_.after(number) : model_.before(number);
+    if (model_.uses[other].arrays.poles.empty()) return false;
+    // The neighbour's pole that lies there: its first one, or its last.
+    const uint32_t k = isAtEnd != model_.uses[other].isReversed ? 0 : lastOf(other);
+    if (other == number && k == pole) continue;
+    const Point2 a = poleAt(number, pole), b = poleAt(other, k);
+    const BezierSpans& u = model_.faces[face].surface->u();
+    const double size = u.breaks()[u.count()] - u.breaks()[0];
+    if (std::hypot(a.x - b.x, a.y - b.y) < 1e-6 * size) moves.push_back({other, k});
+  }
+  std::vector<uint32_t> edges;
+  for (const Move& move : moves) {
+    const uint32_t e = model_.uses[move.use].edge;
+    // The face must be alone with the edge, and the edge be used once.
+    if (model_.uses[move.use].arrays.poles.empty() || firstUses_[e + 1] - firstUses_[e] != 1)
+      return fault.edge = e, false;
+    if (std::find(edges.begin(), edges.end(), e) == edges.end()) edges.push_back(e);
+  }
+  const auto set = [&](const Move& move, Point2 p) {
+    ModelUse& u = model_.uses[move.use];
+    u.arrays.poles[2 * size_t(move.pole)] = p.x, u.arrays.poles[2 * size_t(move.pole) + 1] = p.y;
+    u.curve = TrimCurve(u.arrays.curve());
+  };
+  std::vector<Point2> before;
+  for (const Move& move : moves) before.push_back(poleAt(move.use, move.pole)), set(move, to);
+  bool isRight = true;
+  for (const Move& move : moves)
+    if (!staysInDomain(model_, move.use)) fault.fault = SurfaceFault::TrimOutside, isRight = false;
+  std::vector<std::unique_ptr<NurbsCurve>> curves;
+  for (const uint32_t e : edges) curves.push_back(std::move(model_.edges[e].curve));
+  replant(face, edges);
+  if (isRight) isRight = checkAgain(face, work, fault);
+  if (!isRight) {
+    for (size_t i = 0; i < moves.size(); ++i) set(moves[i], before[i]);
+    for (size_t i = 0; i < edges.size(); ++i) model_.edges[edges[i]].curve = std::move(curves[i]);
+    replant(face, edges);
+  }
+  isEdited_[face] = 1;
+  return isRight;
 }
 
 }  // namespace sf

@@ -82,6 +82,11 @@ class TrimmedSurfaces {
   void tell(const Sampling& sampling, double factor, bool isOver, Tessellation& result) const;
   void findSame(Tessellation& result) const;
   void numberPlaces();
+  void plantTree(uint32_t edge);
+  void replant(uint32_t face, ArrayView<const uint32_t> edges);
+  bool checkAgain(uint32_t face, Work& work, ModelFault& fault);
+  std::vector<uint32_t> edgesOf(uint32_t face) const;
+  bool isAlone(uint32_t edge, uint32_t face) const;
 
   Model model_;
   std::vector<std::unique_ptr<EdgeTree>> trees_;  // [edges] null where no face uses it
@@ -98,6 +103,7 @@ class TrimmedSurfaces {
   std::unique_ptr<FaceMesher> mesher_;
   MeshLayout layout_;
   bool isMeshed_ = false;
+  std::vector<uint8_t> isEdited_;             // [faces] since they were meshed
   std::vector<ModelFault> faults_;            // of faces left out
   std::vector<uint32_t> firstUses_, usesOf_;  // uses by edges
 };
