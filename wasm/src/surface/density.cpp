@@ -9,6 +9,9 @@ namespace {
 constexpr uint32_t kMostDepth = 20;
 /// A form that moves a surface by less than this share of its size is rounding.
 constexpr double kRounding = 1e-12;
+/// Tangents that turn by more than this, in radians, make a crease.
+constexpr double kCrease = 1e-3;
+constexpr int kMostLooks = 4;
 
 }  // namespace
 
@@ -21,21 +24,22 @@ LineTree::LineTree(std::vector<Column> columns, std::vector<double> breaks)
 }
 
 uint32_t LineTree::add(double a, double b) {
-  // The columns within, and the next one on either side.
-  const auto before = [](const Column& c, double t) { return c.at < t; };
-  auto first = std::lower_bound(columns_.begin(), columns_.end(), a, before);
-  auto end = std::lower_bound(first, columns_.end(), b, before);
-  if (first != columns_.begin() && (first == columns_.end() || first->at > a)) --first;
-  if (end != columns_.end()) ++end;
-  double form = 0, turn = 0, speed = 0;
+  // The columns that overlap with it.
+  const auto first = std::upper_bound(columns_.begin(), columns_.end(), a,
+                                      [](double t, const Column& c) { return t < c.to; });
+  const auto end = std::lower_bound(first, columns_.end(), b,
+                                    [](const Column& c, double t) { return c.from < t; });
+  double form = 0, turn = 0, twist = 0, speed = 0;
   for (auto c = first; c != end; ++c)
-    form = std::max(form, c->form), turn = std::max(turn, c->turn), speed += c->speed;
+    form = std::max(form, c->form), turn = std::max(turn, c->turn),
+    twist = std::max(twist, c->twist),
+    speed += c->speed * (std::min(b, c->to) - std::max(a, c->from));
   const double h = b - a;
   Node node;
   node.a = a, node.b = b;
   node.error = form * h * h / 8;
-  node.turn = turn * h;
-  node.length = speed / double(std::max<ptrdiff_t>(end - first, 1)) * h;
+  node.turn = turn * h, node.twist = twist * h;
+  node.length = speed;
   nodes_.push_back(node);
   return uint32_t(nodes_.size()) - 1;
 }
@@ -123,42 +127,78 @@ void LineTree::lines(const Choice& choice, std::vector<double>& at) const {
 
 namespace {
 
-/// Values of one parameter to look at a surface: some in each span, within a range.
-std::vector<double> placesIn(const BezierSpans& spans, double from, double to) {
-  std::vector<double> places;
+/// Columns without values, some in each span, within a range; a surface is looked at in the middle of each.
+std::vector<LineTree::Column> columnsIn(const BezierSpans& spans, double from, double to) {
+  std::vector<LineTree::Column> columns;
   const uint32_t count = spans.degree() + (spans.degree() < 3 ? 2 : 1);
   for (uint32_t s = 0; s < spans.count(); ++s) {
     const double a = std::max(spans.breaks()[s], from), b = std::min(spans.breaks()[s + 1], to);
     if (!(a < b)) continue;
-    // Not at the ends: there derivatives are those of a neighbour.
-    for (uint32_t i = 0; i < count; ++i) {
-      const double x = (i + 0.5) / count;
-      // Denser towards the ends, where splines have their largest second derivatives.
-      places.push_back(a + (b - a) * 0.5 * (1 - std::cos(kPi * x)));
-    }
+    // Narrower towards the ends, where splines have their largest second derivatives.
+    const auto place = [&](uint32_t i) {
+      return i == count ? b : a + (b - a) * 0.5 * (1 - std::cos(kPi * i / count));
+    };
+    for (uint32_t i = 0; i < count; ++i) columns.push_back({place(i), place(i + 1), 0, 0, 0, 0});
   }
-  return places;
+  return columns;
 }
 
-/// A range's ends, and the creases within: knots of full multiplicity where tangents or normals jump.
-std::vector<double> creasesIn(const BezierSpans& spans, double from, double to,
-                              const std::vector<uint8_t>& isCrease) {
+double middleOf(const LineTree::Column& column) { return 0.5 * (column.from + column.to); }
+
+/// A range's ends, and the creases within.
+std::vector<double> breaksIn(const std::vector<double>& creases, double from, double to) {
   std::vector<double> breaks = {from};
   const double least = 1e-9 * (to - from);
-  for (uint32_t s = 1; s < spans.count(); ++s) {
-    const double t = spans.breaks()[s];
-    if (isCrease[s] && t > breaks.back() + least && t < to - least) breaks.push_back(t);
-  }
+  for (const double t : creases)
+    if (t > breaks.back() + least && t < to - least) breaks.push_back(t);
   breaks.push_back(to);
   return breaks;
 }
 
+/// The length of intervals of which half of a tree's length is made, from the longest on. The many short ones at a narrow
+/// bend are not usual.
 double usualLength(const LineTree& tree, const LineTree::Choice& choice) {
   std::vector<double> lengths;
-  for (const uint32_t n : choice.nodes) lengths.push_back(tree.length(n));
-  const auto middle = lengths.begin() + ptrdiff_t(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  double total = 0;
+  for (const uint32_t n : choice.nodes) {
+    lengths.push_back(tree.length(n));
+    total += lengths.back();
+  }
+  std::sort(lengths.begin(), lengths.end());
+  double above = 0;
+  size_t i = lengths.size();
+  while (i > 1 && above < total / 2) above += lengths[--i];
+  return lengths[std::min(i, lengths.size() - 1)];
+}
+
+/// Halves columns beside which a surface is quite another one: the peaks of heavy weights and of crowded knots are narrow.
+/// Whether there were any.
+bool refineColumns(std::vector<LineTree::Column>& columns) {
+  constexpr double kUnlike = 4, kLittleTurn = 0.02;
+  constexpr size_t kMostColumns = 160;
+  const size_t count = columns.size();
+  if (count >= kMostColumns) return false;
+  std::vector<uint8_t> isHalved(count, 0);
+  bool any = false;
+  for (size_t i = 0; i + 1 < count; ++i) {
+    const LineTree::Column &a = columns[i], &b = columns[i + 1];
+    const double turnA = a.turn * (a.to - a.from), turnB = b.turn * (b.to - b.from);
+    const auto isUnlike = [](double x, double y) {
+      return std::max(x, y) > kUnlike * std::min(x, y);
+    };
+    if ((std::max(turnA, turnB) > kLittleTurn && isUnlike(a.turn, b.turn)) ||
+        isUnlike(a.speed, b.speed))
+      isHalved[i] = isHalved[i + 1] = 1, any = true;
+  }
+  if (!any) return false;
+  std::vector<LineTree::Column> halved;
+  for (size_t i = 0; i < count; ++i) {
+    const double from = columns[i].from, to = columns[i].to, middle = 0.5 * (from + to);
+    if (isHalved[i]) halved.push_back({from, middle, 0, 0, 0, 0});
+    halved.push_back({isHalved[i] ? middle : from, to, 0, 0, 0, 0});
+  }
+  columns.swap(halved);
+  return true;
 }
 
 }  // namespace
@@ -168,67 +208,84 @@ double Density::longest(const Lines& lines) const {
   return std::max(usualLength(u, lines.u), usualLength(v, lines.v));
 }
 
+std::vector<double> creasesOf(const NurbsSurface& surface, bool alongU) {
+  const BezierSpans &spans = alongU ? surface.u() : surface.v(),
+                    &others = alongU ? surface.v() : surface.u();
+  std::vector<double> creases;
+  for (uint32_t s = 1; s < spans.count(); ++s) {
+    const double t = spans.breaks()[s], before = t - 1e-7 * (t - spans.breaks()[s - 1]);
+    bool isCrease = false;
+    for (uint32_t o = 0; o < others.count() && !isCrease; ++o)
+      for (const double x : {0.15, 0.5, 0.85}) {
+        const double w = others.breaks()[o] + x * (others.breaks()[o + 1] - others.breaks()[o]);
+        const SurfacePoint a = alongU ? surface.at(before, w) : surface.at(w, before),
+                           b = alongU ? surface.at(t, w) : surface.at(w, t);
+        if (angleBetween(alongU ? a.u : a.v, alongU ? b.u : b.v) > kCrease) isCrease = true;
+      }
+    if (isCrease) creases.push_back(t);
+  }
+  return creases;
+}
+
 Density::Density(const NurbsSurface& surface, Box2 box) {
-  const std::vector<double> us = placesIn(surface.u(), box.u0, box.u1),
-                            vs = placesIn(surface.v(), box.v0, box.v1);
-  const size_t nu = us.size(), nv = vs.size();
-  std::vector<LineTree::Column> columnsU(nu), columnsV(nv);
-  for (size_t i = 0; i < nu; ++i) columnsU[i] = {us[i], 0, 0, 0};
-  for (size_t j = 0; j < nv; ++j) columnsV[j] = {vs[j], 0, 0, 0};
-  double twist = 0, size = 0;
-  for (size_t i = 0; i < nu; ++i)
-    for (size_t j = 0; j < nv; ++j) {
-      const SurfacePoint p = surface.at(us[i], vs[j]);
-      least = i + j == 0 ? p.at : lowest(least, p.at);
-      greatest = i + j == 0 ? p.at : highest(greatest, p.at);
+  std::vector<LineTree::Column> columnsU = columnsIn(surface.u(), box.u0, box.u1),
+                                columnsV = columnsIn(surface.v(), box.v0, box.v1);
+  for (int round = 0;; ++round) {
+    look(surface, box, columnsU, columnsV);
+    if (round == kMostLooks) break;
+    const bool isRefined = refineColumns(columnsU);
+    if (!refineColumns(columnsV) && !isRefined) break;
+    // Halved columns are without values until they are looked at.
+    for (auto* columns : {&columnsU, &columnsV})
+      for (LineTree::Column& c : *columns) c = {c.from, c.to, 0, 0, 0, 0};
+  }
+  u = LineTree(std::move(columnsU), breaksIn(creasesOf(surface, true), box.u0, box.u1));
+  v = LineTree(std::move(columnsV), breaksIn(creasesOf(surface, false), box.v0, box.v1));
+}
+
+/// Looks at the surface in the middle of all pairs of columns.
+void Density::look(const NurbsSurface& surface, Box2 box, std::vector<LineTree::Column>& columnsU,
+                   std::vector<LineTree::Column>& columnsV) {
+  const double du = box.u1 - box.u0, dv = box.v1 - box.v0;
+  bool isFirst = true;
+  double size = 0;
+  formU_ = formV_ = twist_ = speedU_ = speedV_ = 0;
+  for (LineTree::Column& cu : columnsU)
+    for (LineTree::Column& cv : columnsV) {
+      const SurfacePoint p = surface.at(middleOf(cu), middleOf(cv));
+      least = isFirst ? p.at : lowest(least, p.at);
+      greatest = isFirst ? p.at : highest(greatest, p.at);
+      isFirst = false;
       const Vec3 m = p.normal();
       const double area = length(m), speedU = length(p.u), speedV = length(p.v);
-      LineTree::Column &cu = columnsU[i], &cv = columnsV[j];
-      cu.speed += speedU / double(nv), cv.speed += speedV / double(nu);
-      size = std::max({size, speedU * (box.u1 - box.u0), speedV * (box.v1 - box.v0)});
+      cu.speed += speedU * (cv.to - cv.from) / dv, cv.speed += speedV * (cu.to - cu.from) / du;
+      size = std::max({size, speedU * du, speedV * dv});
       if (!(area > 1e-12 * speedU * speedV)) continue;
       const Vec3 n = (1 / area) * m;
       cu.form = std::max(cu.form, std::fabs(dot(n, p.uu)));
       cv.form = std::max(cv.form, std::fabs(dot(n, p.vv)));
-      twist = std::max(twist, std::fabs(dot(n, p.uv)));
+      const double mixed = std::fabs(dot(n, p.uv));
+      cu.twist = std::max(cu.twist, mixed), cv.twist = std::max(cv.twist, mixed);
       // How fast the unit normal turns: the part of its derivative across it.
       const Vec3 mu = cross(p.uu, p.v) + cross(p.u, p.uv), mv = cross(p.uv, p.v) + cross(p.u, p.vv);
       cu.turn = std::max(cu.turn, length(mu - dot(mu, n) * n) / area);
       cv.turn = std::max(cv.turn, length(mv - dot(mv, n) * n) / area);
     }
-  speedU_ = speedV_ = 0;
-  for (const auto& c : columnsU) speedU_ += c.speed / double(nu);
-  for (const auto& c : columnsV) speedV_ += c.speed / double(nv);
-  const double du = box.u1 - box.u0, dv = box.v1 - box.v0;
   const auto round = [&](LineTree::Column& c, double width) {
     if (c.form * width * width < kRounding * size) c.form = 0;
     if (c.turn * width < 1e-9) c.turn = 0;
   };
-  for (auto& c : columnsU) round(c, du);
-  for (auto& c : columnsV) round(c, dv);
-  for (const auto& c : columnsU) formU_ = std::max(formU_, c.form);
-  for (const auto& c : columnsV) formV_ = std::max(formV_, c.form);
-  twist_ = twist * du * dv < kRounding * size ? 0 : twist;
-  // Creases: where the directions of derivatives on both sides of a break differ.
-  const auto findCreases = [&](const BezierSpans& spans, const std::vector<double>& across,
-                               bool alongU) {
-    std::vector<uint8_t> isCrease(spans.count() + 1, 0);
-    for (uint32_t s = 1; s < spans.count(); ++s) {
-      const double t = spans.breaks()[s];
-      const double before = t - 1e-7 * (t - spans.breaks()[s - 1]);
-      for (const double w : across) {
-        const SurfacePoint a = alongU ? surface.at(before, w) : surface.at(w, before),
-                           b = alongU ? surface.at(t, w) : surface.at(w, t);
-        const Vec3 da = alongU ? a.u : a.v, db = alongU ? b.u : b.v;
-        if (angleBetween(da, db) > 1e-3) isCrease[s] = 1;
-      }
-    }
-    return isCrease;
-  };
-  u = LineTree(std::move(columnsU),
-               creasesIn(surface.u(), box.u0, box.u1, findCreases(surface.u(), vs, true)));
-  v = LineTree(std::move(columnsV),
-               creasesIn(surface.v(), box.v0, box.v1, findCreases(surface.v(), us, false)));
+  for (LineTree::Column& c : columnsU) {
+    round(c, du);
+    formU_ = std::max(formU_, c.form), twist_ = std::max(twist_, c.twist);
+    speedU_ += c.speed * (c.to - c.from) / du;
+  }
+  for (LineTree::Column& c : columnsV) {
+    round(c, dv);
+    formV_ = std::max(formV_, c.form);
+    speedV_ += c.speed * (c.to - c.from) / dv;
+  }
+  if (twist_ * du * dv < kRounding * size) twist_ = 0;
 }
 
 void Density::choose(double tolerance, const Fineness& fineness, Lines& lines) {
@@ -258,20 +315,21 @@ void Density::choose(double tolerance, const Fineness& fineness, Lines& lines) {
   lines = best;
   // A twisted surface that is straight along both parameters is off by a quarter of its twist.
   if (twist_ > 0 && tolerance < Sampling::kNoLimit) {
-    for (int k = 0; k < 2 * int(kMostDepth); ++k) {
+    bool isOff = true;
+    for (uint32_t k = 0; k < kMostDepth && isOff; ++k) {
+      isOff = false;
       std::vector<double> us, vs;
       u.lines(lines.u, us), v.lines(lines.v, vs);
-      double hu = 0, hv = 0;
-      for (size_t i = 0; i + 1 < us.size(); ++i) hu = std::max(hu, us[i + 1] - us[i]);
-      for (size_t j = 0; j + 1 < vs.size(); ++j) hv = std::max(hv, vs[j + 1] - vs[j]);
-      if (twist_ * hu * hv / 4 <= tolerance) break;
-      const bool alongU = hu * speedU_ >= hv * speedV_;
-      LineTree::Choice& longer = alongU ? lines.u : lines.v;
-      std::vector<uint8_t> halved;
-      const std::vector<double>& at = alongU ? us : vs;
-      for (size_t i = 0; i + 1 < at.size(); ++i)
-        halved.push_back(at[i + 1] - at[i] > 0.75 * (alongU ? hu : hv));
-      (alongU ? u : v).halve(halved, longer);
+      std::vector<uint8_t> halvedU(us.size() - 1), halvedV(vs.size() - 1);
+      for (size_t i = 0; i + 1 < us.size(); ++i)
+        for (size_t j = 0; j + 1 < vs.size(); ++j) {
+          const uint32_t nu = lines.u.nodes[i], nv = lines.v.nodes[j];
+          const double hu = us[i + 1] - us[i], hv = vs[j + 1] - vs[j];
+          if (std::min(u.twist(nu) * hv, v.twist(nv) * hu) <= 4 * tolerance) continue;
+          (u.length(nu) >= v.length(nv) ? halvedU[i] : halvedV[j]) = 1;
+          isOff = true;
+        }
+      u.halve(halvedU, lines.u), v.halve(halvedV, lines.v);
     }
   }
   if (isFlat() || fineness.aspect() == Sampling::kNoLimit) return;

@@ -22,11 +22,12 @@ struct Box2 {
 /// The intervals of one parameter.
 class LineTree {
  public:
-  /// What a surface is like around one value of the parameter, at its worst along the other.
+  /// What a surface is like between two values of the parameter, at its worst along the other.
   struct Column {
-    double at;
+    double from, to;
     double form;   // second fundamental form along the parameter
     double turn;   // of the normal, radians for each unit of the parameter
+    double twist;  // mixed part of the form
     double speed;  // length in space for each unit of the parameter, in the mean
   };
 
@@ -52,12 +53,13 @@ class LineTree {
 
   double length(uint32_t node) const { return nodes_[node].length; }
   double error(uint32_t node) const { return nodes_[node].error; }
+  double twist(uint32_t node) const { return nodes_[node].twist; }
   bool isFlat() const { return isFlat_; }
 
  private:
   struct Node {
     double a, b;
-    double error, turn, length;
+    double error, turn, twist, length;  // twist: the form's mixed part times the width
     uint32_t child = kNone;
     bool isHalved = false;
   };
@@ -71,6 +73,9 @@ class LineTree {
   uint32_t roots_ = 0;
   bool isFlat_ = true;
 };
+
+/// The breaks of a surface where its tangents turn at once, all along or in part.
+std::vector<double> creasesOf(const NurbsSurface& surface, bool alongU);
 
 /// The lines of a face.
 class Density {
@@ -103,6 +108,9 @@ class Density {
   double speedV() const { return speedV_; }
 
  private:
+  void look(const NurbsSurface& surface, Box2 box, std::vector<LineTree::Column>& columnsU,
+            std::vector<LineTree::Column>& columnsV);
+
   double twist_ = 0, formU_ = 0, formV_ = 0, speedU_ = 1, speedV_ = 1;
 };
 

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "surface/density.h"
+
 namespace sf {
 namespace {
 
 /// An interval shorter than this share of the edge is too short to be halved.
 constexpr double kShortest = 1e-10;
+/// Pieces that cross within this share of the edge from their common corner overshoot it.
+constexpr double kOvershoot = 0.05;
 /// Into how many pieces an interval is cut to be measured, if its curve is a single polynomial there.
 constexpr uint32_t kPieces = 4, kMostPieces = 64;
 
@@ -18,14 +22,42 @@ double distanceFromChord(Vec3 p, Vec3 a, Vec3 b) {
   return distance(p, a + x * d);
 }
 
+/// Appends the parameters at which the edge crosses creases of the surface that it lies on.
+void appendCrossings(const Model& model, const ModelEdge& edge, std::vector<double>& at) {
+  const ModelUse& use = model.uses[edge.firstUse];
+  const NurbsSurface& surface = *model.faces[use.face].surface;
+  const uint32_t pieces = std::min(8 * use.curve.curve().spans().count(), 4000u);
+  for (const bool alongU : {true, false}) {
+    const std::vector<double> creases = creasesOf(surface, alongU);
+    if (creases.empty()) continue;
+    const auto value = [&](double t) { return alongU ? use.curve.at(t).x : use.curve.at(t).y; };
+    double a = edge.from, va = value(a);
+    for (uint32_t i = 1; i <= pieces; ++i) {
+      const double b = edge.from + (edge.to - edge.from) * i / pieces, vb = value(b);
+      for (const double crease : creases) {
+        if ((va < crease) == (vb < crease)) continue;
+        double low = a, high = b;
+        for (int k = 0; k < 60 && low < high; ++k) {
+          const double middle = 0.5 * (low + high);
+          ((value(middle) < crease) == (va < crease) ? low : high) = middle;
+        }
+        at.push_back(high);
+      }
+      a = b, va = vb;
+    }
+  }
+}
+
 }  // namespace
 
-EdgeTree::EdgeTree(const Model& model, uint32_t edge) : model_(&model), edge_(edge) {
+EdgeTree::EdgeTree(const Model& model, uint32_t edge, ArrayView<const uint32_t> uses)
+    : model_(&model), edge_(edge) {
   const ModelEdge& e = model.edges[edge];
   if (!e.isDegenerate) {
     if (e.curve) appendCorners(*e.curve, e.from, e.to, breaks_);
-    for (const ModelUse& use : model.uses)
-      if (use.edge == edge) use.curve.appendBreaks(e.from, e.to, breaks_);
+    for (const uint32_t u : uses) model.uses[u].curve.appendBreaks(e.from, e.to, breaks_);
+    // A curve of space has its corners at its breaks; one that is none, where it crosses creases of its surface.
+    if (!e.curve) appendCrossings(model, e, breaks_);
     std::sort(breaks_.begin(), breaks_.end());
   }
   const double least = kShortest * (e.to - e.from);
@@ -48,7 +80,7 @@ Vec3 EdgeTree::at(double t) const {
 }
 
 uint32_t EdgeTree::add(double a, Vec3 from, double b, Vec3 to) {
-  Node node{a, b, {}, 0, 0, distance(from, to), kNone, false, false};
+  Node node{a, b, {}, 0, 0, distance(from, to), kNone, kNone, false, false, false};
   uint32_t pieces = kPieces;
   const ModelEdge& e = model_->edges[edge_];
   if (e.curve) {
@@ -77,6 +109,7 @@ void EdgeTree::halve(uint32_t node, Vec3 from, Vec3 to) {
   const uint32_t first = add(n.a, from, middle, n.middle);
   add(middle, n.middle, n.b, to);
   nodes_[node].child = first;
+  nodes_[first].parent = nodes_[first + 1].parent = node;
 }
 
 void EdgeTree::select(const Fineness& fineness, double longest, std::vector<EdgeSample>& samples) {
@@ -101,8 +134,9 @@ void EdgeTree::select(const Fineness& fineness, double longest, std::vector<Edge
             fineness.tolerance(node->middle, 0.5 * node->chord + node->error) * allowed;
         // A closed edge of fewer samples would enclose nothing.
         const bool isRound = isClosed && node->b - node->a > 0.3 * (e.to - e.from);
-        isHalved = node->isForced || isRound || node->error > tolerance ||
-                   node->turn > fineness.angle() * allowed || node->chord > longest;
+        isHalved =
+            !node->isFrozen && (node->isForced || isRound || node->error > tolerance ||
+                                node->turn > fineness.angle() * allowed || node->chord > longest);
       }
       node->isHalved = isHalved;
       if (!isHalved) {
@@ -118,8 +152,32 @@ void EdgeTree::select(const Fineness& fineness, double longest, std::vector<Edge
   samples.push_back({e.to, breakPoints_.back(), kNone});
 }
 
+bool EdgeTree::freeze(uint32_t node) {
+  const auto relax = [&](uint32_t n) {
+    if (nodes_[n].isForced) --forced_;
+    nodes_[n].isForced = false;
+  };
+  relax(node);
+  uint32_t up = nodes_[node].parent;
+  while (up != kNone && nodes_[up].isForced && nodes_[up].parent != kNone)
+    relax(up), up = nodes_[up].parent;
+  if (up == kNone) return false;
+  relax(up);
+  nodes_[up].isFrozen = true;
+  return true;
+}
+
+bool EdgeTree::overshoots(uint32_t node, uint32_t other) const {
+  const Node &a = nodes_[nodes_[node].a < nodes_[other].a ? node : other],
+             &b = nodes_[nodes_[node].a < nodes_[other].a ? other : node];
+  if (b.a - a.b > kOvershoot * (breaks_.back() - breaks_.front())) return false;
+  return std::any_of(breaks_.begin(), breaks_.end(),
+                     [&](double t) { return a.b <= t && t <= b.a; });
+}
+
 bool EdgeTree::force(uint32_t node) {
   const ModelEdge& e = model_->edges[edge_];
+  if (nodes_[node].isFrozen) return false;
   if (e.isDegenerate || nodes_[node].b - nodes_[node].a <= 2 * kShortest * (e.to - e.from))
     return false;
   if (!nodes_[node].isForced) ++forced_;

@@ -23,7 +23,8 @@ struct EdgeSample {
 class EdgeTree {
  public:
   /// For an edge that some face uses. Intervals begin at its ends and wherever it has a corner in space or in a domain.
-  EdgeTree(const Model& model, uint32_t edge);
+  ///   uses  those of the edge
+  EdgeTree(const Model& model, uint32_t edge, ArrayView<const uint32_t> uses);
 
   /// The samples in order of the parameter, both ends included. Two for a degenerate edge.
   ///   longest  most length of an interval
@@ -31,6 +32,11 @@ class EdgeTree {
   /// Halves an interval from now on, whatever the tolerance. False if it is too short to be halved: its curve is the
   /// culprit, not its samples.
   bool force(uint32_t node);
+  /// Where a curve crosses itself, no halving helps: takes an interval, and with it what was halved by force around it, back to
+  /// the one above, from now on. False at the top.
+  bool freeze(uint32_t node);
+  /// Whether two intervals lie closely on both sides of a corner: where they cross, two pieces of the curve overshoot it.
+  bool overshoots(uint32_t node, uint32_t other) const;
   /// How many intervals are halved by force.
   uint32_t forced() const { return forced_; }
 
@@ -45,7 +51,8 @@ class EdgeTree {
     double turn;             // of its tangent, radians
     double chord;            // its length
     uint32_t child = kNone;  // the first of two
-    bool isForced = false;
+    uint32_t parent = kNone;
+    bool isForced = false, isFrozen = false;
     bool isHalved = false;  // at the last selection
   };
 

@@ -12,6 +12,8 @@
 namespace sf {
 namespace {
 
+/// Corners of one vertex within this share of the domain are one.
+constexpr double kSameCorner = 1e-6;
 constexpr int kMostRefinings = 8, kMostRounds = 16;
 
 Vec3 middle(Vec3 a, Vec3 b) { return 0.5 * (a + b); }
@@ -57,6 +59,14 @@ struct FaceMesher::State {
   std::vector<uint32_t> bandVertex;  // number in the mesh
   std::vector<uint32_t> quadStrips, quadStarts, quadTriangles;
 
+  // [vertices of the model] where each was met last.
+  struct Corner {
+    uint32_t face;
+    Point2 uv;
+  };
+  std::vector<Corner> corners;
+
+  Point2 sharedCorner(uint32_t vertex, Point2 uv);
   Point2 scaled(Point2 uv) const {
     return {(uv.x - origin.x) * scale.x, (uv.y - origin.y) * scale.y};
   }
@@ -81,6 +91,19 @@ FaceMesher::~FaceMesher() = default;
 uint32_t FaceMesher::State::addVertex(Point2 uv, Vec3 at, Vec3 normal) {
   mesh->uvs.push_back(uv), mesh->positions.push_back(at), mesh->normals.push_back(normal);
   return uint32_t(mesh->positions.size()) - 1;
+}
+
+/// The place of a corner in the domain: that of an earlier one of the same vertex, if they are nearly at one place.
+Point2 FaceMesher::State::sharedCorner(uint32_t vertex, Point2 uv) {
+  if (corners.size() < model.vertices) corners.resize(model.vertices, {kNone, {}});
+  Corner& corner = corners[vertex];
+  const BezierSpans &u = surface->u(), &v = surface->v();
+  const double nearU = kSameCorner * (u.breaks()[u.count()] - u.breaks()[0]),
+               nearV = kSameCorner * (v.breaks()[v.count()] - v.breaks()[0]);
+  const bool isSame = corner.face == face && std::fabs(corner.uv.x - uv.x) <= nearU &&
+                      std::fabs(corner.uv.y - uv.y) <= nearV;
+  if (!isSame) corner = {face, uv};
+  return corner.uv;
 }
 
 /// Lays out the rings, and their vertices in the mesh.
@@ -115,6 +138,7 @@ void FaceMesher::State::begin(uint32_t f, const EdgeSamples& samples, FaceMesh& 
           const Point2 end = before.curve.at(before.isReversed ? edgeBefore.from : edgeBefore.to);
           uv = middle(uv, end);
           place = use.isReversed ? edge.toVertex : edge.fromVertex;
+          uv = sharedCorner(place, uv);
         }
         uvs.push_back(uv), places.push_back(place), at.push_back(of[s].at);
         uses.push_back(u);

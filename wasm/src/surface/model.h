@@ -61,14 +61,15 @@ struct ModelFace {
   std::unique_ptr<NurbsSurface> surface;
   bool isReversed = false;  // its normal is -(Su x Sv)
   bool isLeftOut = false;   // faulty: it has no part in anything
+  bool isSuspect = false;   // its fault is named, and a better one may be found once it is sampled
   uint32_t firstLoop = 0, endLoop = 0;
 };
 
 /// The model in flat arrays. All counts are of `shape`, all else is of `numbers`, in this order:
 ///   shape    faces, edges;
 ///            for each edge: flags (1 degenerate, 2 with a curve); with a curve: degree, poles, knots, rational (0 or 1)
-///            for each face: flags (1 reversed, 2 unusable: what follows is in parts missing); degree u, poles u, knots u,
-///              degree v, poles v, knots v, rational; outer loop + 1, or 0; loops;
+///            for each face: flags (1 reversed); degree u, poles u, knots u, degree v, poles v, knots v, rational; outer
+///              loop + 1, or 0; loops;
 ///              for each loop: uses; for each use: edge, flags (1 reversed, 2 seam, 4 with a curve); with a curve:
 ///              degree, poles, knots, rational
 ///   numbers  for each edge: tolerance, from, to; with a curve: knots, poles [3n], weights if rational

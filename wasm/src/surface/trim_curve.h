@@ -16,18 +16,24 @@ namespace sf {
 class TrimCurve {
  public:
   TrimCurve() = default;
-  explicit TrimCurve(const NurbsCurveView& view);
-  /// The curve of the surface nearest to a curve of space, over the parameters from `from` to `to`; isFound() tells whether
-  /// there is one within `tolerance`.
-  ///   wanted  if not null, a point of the domain that the curve should begin at if it may: on which side of a seam
-  TrimCurve(const NurbsSurface& surface, const NurbsCurve& edge, double from, double to,
-            double tolerance);
+  explicit TrimCurve(const NurbsCurveView& view) : curve_(std::make_unique<NurbsCurve>(view)) {}
+  /// The straight way from one point to another.
+  TrimCurve(Point2 from, Point2 to, double t0, double t1);
 
-  bool isFound() const;
-  /// At a parameter of the edge. O(degree), or a few evaluations of the surface if it was found by inversion.
-  Point2 at(double t) const;
-  /// Appends parameters strictly inside the range where the curve is not smooth or its spans meet: corners and breaks.
-  void appendBreaks(double from, double to, std::vector<double>& parameters) const;
+  bool isFound() const { return curve_ != nullptr; }
+  /// At a parameter of the edge.
+  Point2 at(double t) const {
+    const Vec3 p = curve_->at(t).at;
+    return {p.x, p.y};
+  }
+  /// Appends the parameters of corners strictly inside a range.
+  void appendBreaks(double from, double to, std::vector<double>& parameters) const {
+    appendCorners(*curve_, from, to, parameters);
+  }
+  const NurbsCurve& curve() const { return *curve_; }
+
+ private:
+  std::unique_ptr<NurbsCurve> curve_;
 };
 
 }  // namespace sf

@@ -53,7 +53,8 @@ void TrimmedSurfaces::selectEdge(uint32_t edge, const Fineness& fineness) {
 }
 
 /// Halves the intervals at fault. False if that cannot help: the face is to be left out.
-bool TrimmedSurfaces::settle(uint32_t face, const FaceProblem& problem,
+///   mayFreeze  a crossing of a curve with itself that is too narrow to be seen at coarser samplings is stepped over
+bool TrimmedSurfaces::settle(uint32_t face, const FaceProblem& problem, bool mayFreeze,
                              std::vector<uint32_t>& touched, ModelFault& fault) {
   bool isHalved = false;
   const auto halve = [&](uint32_t use, uint32_t sample) {
@@ -80,6 +81,26 @@ bool TrimmedSurfaces::settle(uint32_t face, const FaceProblem& problem,
       isHalved = false;
   }
   if (isHalved) return true;
+  const auto overshoots = [&] {
+    const uint32_t edge = model_.uses[problem.use].edge;
+    const std::vector<EdgeSample>& of = samples_.of[edge];
+    return edge == model_.uses[problem.otherUse].edge &&
+           trees_[edge]->overshoots(of[problem.sample].node, of[problem.otherSample].node);
+  };
+  if (problem.use != kNone && problem.otherUse != kNone &&
+      problem.fault != SurfaceFault::Degenerate && (mayFreeze || overshoots())) {
+    bool isFrozen = false;
+    const auto freeze = [&](uint32_t use, uint32_t sample) {
+      const uint32_t edge = model_.uses[use].edge;
+      const std::vector<EdgeSample>& of = samples_.of[edge];
+      if (sample + 1 >= of.size() || !trees_[edge]->freeze(of[sample].node)) return;
+      isFrozen = true;
+      touched.push_back(edge);
+    };
+    freeze(problem.use, problem.sample);
+    freeze(problem.otherUse, problem.otherSample);
+    if (isFrozen) return true;
+  }
   fault.fault = problem.fault, fault.face = face;
   fault.loop = problem.loop, fault.otherLoop = problem.otherLoop;
   if (fault.otherLoop == fault.loop) fault.otherLoop = kNone;
@@ -121,7 +142,10 @@ std::unique_ptr<TrimmedSurfaces> TrimmedSurfaces::open(Model&& model, Work& work
   std::vector<uint8_t> isPlaced(m.vertices, 0);
   for (uint32_t e = 0; e < edges; ++e) {
     if (s.firstUses_[e] == s.firstUses_[e + 1]) continue;
-    s.trees_[e] = std::make_unique<EdgeTree>(m, e);
+    s.trees_[e] = std::make_unique<EdgeTree>(
+        m, e,
+        ArrayView<const uint32_t>(s.usesOf_.data() + s.firstUses_[e],
+                                  s.firstUses_[e + 1] - s.firstUses_[e]));
     const ModelEdge& edge = m.edges[e];
     for (const uint32_t v : {edge.fromVertex, edge.toVertex}) {
       if (isPlaced[v]) continue;
@@ -151,16 +175,22 @@ std::unique_ptr<TrimmedSurfaces> TrimmedSurfaces::open(Model&& model, Work& work
     }
     ModelFault fault{};
     touched.clear();
-    if (s.settle(f, problem, touched, fault)) {
+    if (s.settle(f, problem, false, touched, fault)) {
       for (const uint32_t e : touched) s.selectEdge(e, fineness);
       s.numberPlaces();
     } else {
-      s.leaveOut(f, fault);
-      faults.push_back(fault);
+      if (!m.faces[f].isSuspect) {
+        s.leaveOut(f, fault);
+        faults.push_back(fault);
+      } else if (fault.fault == SurfaceFault::TrimsCross) {
+        for (ModelFault& known : faults)
+          if (known.face == f) known = fault;
+      }
       open.pop_back();
     }
   }
   if (!work.going()) return nullptr;
+  for (ModelFace& face : s.model_.faces) face.isLeftOut |= face.isSuspect;
   for (uint32_t f = 0; f < faces; ++f)
     if (!m.faces[f].isLeftOut)
       s.densities_[f] = Density(*m.faces[f].surface, boxOf(m, f, s.samples_));
@@ -217,7 +247,7 @@ bool TrimmedSurfaces::meshAll(const Sampling& sampling, Work& work) {
     }
     ModelFault fault{};
     touched.clear();
-    if (settle(f, problem, touched, fault)) {
+    if (settle(f, problem, true, touched, fault)) {
       for (const uint32_t e : touched) {
         selectEdge(e, fineness);
         // The other faces of the edge have to follow.

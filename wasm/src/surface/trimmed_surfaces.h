@@ -58,8 +58,8 @@ class TrimmedSurfaces {
   explicit TrimmedSurfaces(Model&& model) : model_(std::move(model)) {}
   void selectEdge(uint32_t edge, const Fineness& fineness);
   void chooseLines(uint32_t face, const Fineness& fineness, double& tolerance);
-  bool settle(uint32_t face, const FaceProblem& problem, std::vector<uint32_t>& touched,
-              ModelFault& fault);
+  bool settle(uint32_t face, const FaceProblem& problem, bool mayFreeze,
+              std::vector<uint32_t>& touched, ModelFault& fault);
   void leaveOut(uint32_t face, const ModelFault& fault);
   bool meshAll(const Sampling& sampling, Work& work);
   void assemble(Tessellation& result) const;

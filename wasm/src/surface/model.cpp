@@ -1,0 +1,445 @@
+#include "surface/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/union_find.h"
+
+namespace sf {
+namespace {
+
+/// How far a trimming curve may leave the domain, or the next one may begin, in the domain's size.
+constexpr double kDomainSlack = 1e-6;
+/// How far curves may be apart beyond what their edge tells, in the model's diagonal.
+constexpr double kSpaceSlack = 1e-5;
+/// Consecutive curves may be this much of the domain apart if they meet in space.
+constexpr double kLargestGap = 0.05;
+/// Points within this share of the diagonal are one.
+constexpr double kSamePoint = 1e-9;
+
+bool isAcceptedNumber(double x) { return std::fabs(x) <= kLargestCoordinate; }
+bool areAccepted(ArrayView<const double> numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), isAcceptedNumber);
+}
+
+/// Reads both arrays from front to back. After a read that does not fit, `fits` is false, and all that follows is empty.
+class Reader {
+ public:
+  explicit Reader(const ModelArrays& arrays) : arrays_(arrays) {}
+  bool fits = true;
+
+  uint32_t count() {
+    if (nextCount_ >= arrays_.shape.size()) return fits = false, 0;
+    return arrays_.shape[nextCount_++];
+  }
+  ArrayView<const double> numbers(uint64_t size) {
+    if (!fits || size > arrays_.numbers.size() - nextNumber_)
+      return fits = false, ArrayView<const double>();
+    nextNumber_ += size_t(size);
+    return arrays_.numbers.slice(nextNumber_ - size_t(size), size_t(size));
+  }
+  bool isAtEnd() const {
+    return nextCount_ == arrays_.shape.size() && nextNumber_ == arrays_.numbers.size();
+  }
+  /// Whether a list of that many things, each of at least one count, can follow.
+  bool holds(uint32_t things) const { return things <= arrays_.shape.size() - nextCount_; }
+
+ private:
+  ModelArrays arrays_;
+  size_t nextCount_ = 0, nextNumber_ = 0;
+};
+
+struct CurveArrays {
+  uint32_t degree = 0, poles = 0;
+  ArrayView<const double> knots, at, weights;
+};
+
+CurveArrays readCurve(Reader& in, uint32_t dimension, double* domain = nullptr) {
+  CurveArrays c;
+  c.degree = in.count(), c.poles = in.count();
+  const uint32_t knots = in.count(), isRational = in.count();
+  if (domain) {
+    const ArrayView<const double> ends = in.numbers(2);
+    if (in.fits) domain[0] = ends[0], domain[1] = ends[1];
+  }
+  c.knots = in.numbers(knots), c.at = in.numbers(uint64_t(dimension) * c.poles);
+  if (isRational) c.weights = in.numbers(c.poles);
+  return c;
+}
+
+/// The fault of knots, poles and weights, if there is one.
+bool findFault(const KnotVector& knots, uint64_t poles, SurfaceFault& fault) {
+  if (areKnots(knots, size_t(poles)) && areAccepted(knots.knots)) return false;
+  const bool isFinite = areAccepted(knots.knots);
+  fault = isFinite ? SurfaceFault::BadKnots : SurfaceFault::NotFinite;
+  return true;
+}
+bool findFault(ArrayView<const double> poles, ArrayView<const double> weights,
+               SurfaceFault& fault) {
+  fault = SurfaceFault::NotFinite;
+  if (!areAccepted(poles)) return true;
+  for (const double w : weights) {
+    if (!isAcceptedNumber(w)) return true;
+    if (w > 0) continue;
+    fault = SurfaceFault::BadWeights;
+    return true;
+  }
+  return false;
+}
+bool findFault(const CurveArrays& c, SurfaceFault& fault) {
+  return findFault({c.degree, c.knots}, c.poles, fault) || findFault(c.at, c.weights, fault);
+}
+
+/// The model under way, and what is found wrong with it.
+class ModelReader {
+ public:
+  ModelReader(const ModelArrays& arrays, Work& work, Model& model)
+      : in_(arrays), work_(work), m_(model) {}
+
+  bool read();
+  void findBox();
+  void addLoops();
+  void checkUses();
+  void unite();
+  std::vector<ModelFault> faults;
+
+ private:
+  void readEdge(ModelEdge& edge, uint32_t number);
+  void readFace(ModelFace& face, uint32_t number);
+  void readUse(ModelUse& use, uint32_t place, uint32_t loopInFace);
+  void fail(SurfaceFault fault, uint32_t face, uint32_t loop = kNone, uint32_t use = kNone,
+            uint32_t edge = kNone);
+  void addLoop(uint32_t face);
+  bool checkUse(uint32_t use);
+  void failUse(SurfaceFault fault, uint32_t use);
+  Vec3 onSurface(const ModelUse& use, Point2 p) const {
+    return m_.faces[use.face].surface->at(p.x, p.y).at;
+  }
+
+  Reader in_;
+  Work& work_;
+  Model& m_;
+  struct EdgeFault {
+    bool isFaulty = false;
+    SurfaceFault fault = SurfaceFault::BadEdge;
+  };
+  std::vector<EdgeFault> edgeFaults_;
+  std::vector<Vec3> lows_, highs_;  // the boxes of faces
+};
+
+void ModelReader::fail(SurfaceFault fault, uint32_t face, uint32_t loop, uint32_t use,
+                       uint32_t edge) {
+  if (m_.faces[face].isLeftOut || m_.faces[face].isSuspect) return;
+  // Where a loop that leaves the domain also crosses another, that is the better thing to say.
+  (fault == SurfaceFault::TrimOutside ? m_.faces[face].isSuspect : m_.faces[face].isLeftOut) = true;
+  faults.push_back({fault, face, loop, use, kNone, edge});
+}
+
+void ModelReader::failUse(SurfaceFault fault, uint32_t use) {
+  const ModelUse& u = m_.uses[use];
+  fail(fault, u.face, u.loop - m_.faces[u.face].firstLoop, use - m_.loops[u.loop].firstUse, u.edge);
+}
+
+void ModelReader::readEdge(ModelEdge& edge, uint32_t number) {
+  EdgeFault& bad = edgeFaults_[number];
+  const auto fail = [&](SurfaceFault fault) {
+    if (!bad.isFaulty) bad = {true, fault};
+  };
+  const uint32_t flags = in_.count();
+  const ArrayView<const double> numbers = in_.numbers(3);
+  if (!in_.fits) return;
+  edge.isDegenerate = (flags & 1) != 0;
+  edge.tolerance = numbers[0], edge.from = numbers[1], edge.to = numbers[2];
+  if (!areAccepted(numbers) || edge.tolerance < 0)
+    fail(SurfaceFault::NotFinite);
+  else if (!(edge.from < edge.to))
+    fail(SurfaceFault::BadDomain);
+  if ((flags & 2) == 0) return;
+  const CurveArrays c = readCurve(in_, 3);
+  if (!in_.fits || bad.isFaulty) return;
+  SurfaceFault fault;
+  if (findFault(c, fault)) return fail(fault);
+  edge.curve =
+      std::make_unique<NurbsCurve>(NurbsCurveView{{c.degree, c.knots}, 3, c.at, c.weights});
+  const ArrayView<const double> breaks = edge.curve->spans().breaks();
+  const double slack = kDomainSlack * (edge.to - edge.from);
+  if (edge.from < breaks[0] - slack || edge.to > breaks[breaks.size() - 1] + slack)
+    fail(SurfaceFault::BadDomain);
+}
+
+void ModelReader::readFace(ModelFace& face, uint32_t number) {
+  const uint32_t flags = in_.count();
+  const uint32_t degreeU = in_.count(), polesU = in_.count(), knotsU = in_.count();
+  const uint32_t degreeV = in_.count(), polesV = in_.count(), knotsV = in_.count();
+  const uint32_t isRational = in_.count(), outer = in_.count(), loops = in_.count();
+  const uint64_t poles = uint64_t(polesU) * polesV;
+  const KnotVector u{degreeU, in_.numbers(knotsU)}, v{degreeV, in_.numbers(knotsV)};
+  const ArrayView<const double> at = in_.numbers(poles < 1ull << 40 ? 3 * poles : ~0ull);
+  const ArrayView<const double> weights =
+      isRational ? in_.numbers(poles) : ArrayView<const double>();
+  if (!in_.fits) return;
+  face.isReversed = (flags & 1) != 0;
+  face.firstLoop = uint32_t(m_.loops.size());
+  SurfaceFault fault;
+  if (findFault(u, polesU, fault) || findFault(v, polesV, fault) || findFault(at, weights, fault)) {
+    fail(fault, number);
+  } else {
+    face.surface = std::make_unique<NurbsSurface>(NurbsSurfaceView{u, v, at, weights});
+    Vec3 &low = lows_[number], &high = highs_[number];
+    low = high = {at[0], at[1], at[2]};
+    for (size_t i = 3; i < at.size(); i += 3)
+      low = lowest(low, {at[i], at[i + 1], at[i + 2]}),
+      high = highest(high, {at[i], at[i + 1], at[i + 2]});
+  }
+  if (loops > 0 && (outer == 0 || outer > loops)) fail(SurfaceFault::Degenerate, number);
+  if (!in_.holds(loops)) return void(in_.fits = false);
+  for (uint32_t l = 0; l < loops && in_.fits; ++l) {
+    ModelLoop loop;
+    loop.face = number, loop.isOuter = l + 1 == outer;
+    loop.firstUse = uint32_t(m_.uses.size());
+    const uint32_t uses = in_.count();
+    if (!in_.holds(uses)) return void(in_.fits = false);
+    if (uses == 0) fail(SurfaceFault::Degenerate, number, l);
+    for (uint32_t k = 0; k < uses && in_.fits; ++k) {
+      ModelUse use;
+      use.face = number, use.loop = uint32_t(m_.loops.size());
+      readUse(use, k, l);
+      m_.uses.push_back(std::move(use));
+    }
+    loop.endUse = uint32_t(m_.uses.size());
+    m_.loops.push_back(loop);
+  }
+  face.endLoop = uint32_t(m_.loops.size());
+}
+
+void ModelReader::readUse(ModelUse& use, uint32_t place, uint32_t loopInFace) {
+  const uint32_t edge = in_.count(), flags = in_.count();
+  use.isReversed = (flags & 1) != 0, use.isSeam = (flags & 2) != 0;
+  double domain[2] = {};
+  CurveArrays c;
+  if (flags & 4) c = readCurve(in_, 2, domain);
+  if (!in_.fits) return;
+  const auto fail = [&](SurfaceFault fault) {
+    this->fail(fault, use.face, loopInFace, place, edge);
+  };
+  if (edge >= m_.edges.size()) return fail(SurfaceFault::BadEdge);
+  use.edge = edge;
+  const ModelEdge& e = m_.edges[edge];
+  if (edgeFaults_[edge].isFaulty) return fail(edgeFaults_[edge].fault);
+  if (!(flags & 4)) return e.curve ? void() : fail(SurfaceFault::BadEdge);
+  SurfaceFault fault;
+  if (findFault(c, fault)) return fail(fault);
+  const KnotVector knots{c.degree, c.knots};
+  const double slack = kDomainSlack * (e.to - e.from);
+  // Where the domain of a p-curve differs from its edge's range, or its knots do not reach as far.
+  if (!(std::fabs(domain[0] - e.from) <= slack && std::fabs(domain[1] - e.to) <= slack &&
+        knots.from() <= e.from + slack && knots.to() >= e.to - slack))
+    return fail(SurfaceFault::BadDomain);
+  use.curve = TrimCurve(NurbsCurveView{knots, 2, c.at, c.weights});
+}
+
+bool ModelReader::read() {
+  const uint32_t faces = in_.count(), edges = in_.count();
+  if (!in_.fits || !in_.holds(faces) || !in_.holds(edges)) return false;
+  m_.faces.resize(faces), m_.edges.resize(edges);
+  edgeFaults_.resize(edges), lows_.resize(faces), highs_.resize(faces);
+  for (uint32_t e = 0; e < edges && in_.fits; ++e) readEdge(m_.edges[e], e);
+  for (uint32_t f = 0; f < faces && in_.fits; ++f) {
+    readFace(m_.faces[f], f);
+    if (!work_.tick(10000)) return false;
+  }
+  return in_.fits && in_.isAtEnd();
+}
+
+void ModelReader::findBox() {
+  bool isFirst = true;
+  for (uint32_t f = 0; f < m_.faces.size(); ++f) {
+    if (m_.faces[f].isLeftOut) continue;
+    m_.least = isFirst ? lows_[f] : lowest(m_.least, lows_[f]);
+    m_.greatest = isFirst ? highs_[f] : highest(m_.greatest, highs_[f]);
+    isFirst = false;
+  }
+}
+
+/// A loop around the domain of a face that has none.
+void ModelReader::addLoop(uint32_t number) {
+  ModelFace& face = m_.faces[number];
+  const NurbsSurface& s = *face.surface;
+  const BezierSpans &u = s.u(), &v = s.v();
+  const double u0 = u.breaks()[0], u1 = u.breaks()[u.count()], v0 = v.breaks()[0],
+               v1 = v.breaks()[v.count()];
+  const Point2 corners[4] = {{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}};
+  const double same = kSamePoint * m_.diagonal();
+  const auto side = [&](int k, double x) {
+    const Point2 a = corners[k], b = corners[(k + 1) & 3];
+    return s.at(a.x + x * (b.x - a.x), a.y + x * (b.y - a.y)).at;
+  };
+  const auto all = [&](auto&& holds) {
+    for (int i = 0; i <= 32; ++i)
+      if (!holds(i / 32.0)) return false;
+    return true;
+  };
+  face.firstLoop = uint32_t(m_.loops.size());
+  ModelLoop loop;
+  loop.face = number, loop.isOuter = true;
+  loop.firstUse = uint32_t(m_.uses.size());
+  uint32_t edges[4];
+  for (int k = 0; k < 4; ++k) {
+    ModelUse use;
+    use.face = number, use.loop = face.firstLoop;
+    const Point2 a = corners[k], b = corners[(k + 1) & 3];
+    // The third side runs backwards along the first one where the surface closes; so does the fourth along the second.
+    const bool closes = k >= 2 && !m_.edges[edges[k - 2]].isDegenerate && all([&](double x) {
+                          return distance(side(k, x), side(k - 2, 1 - x)) <= same;
+                        });
+    if (closes) {
+      use.edge = edges[k] = edges[k - 2];
+      use.isReversed = use.isSeam = true;
+      m_.uses[m_.uses.size() - 2].isSeam = true;
+      use.curve = TrimCurve(b, a, 0, 1);
+    } else {
+      ModelEdge edge;
+      edge.isDegenerate = all([&](double x) { return distance(side(k, x), side(k, 0)) <= same; });
+      use.edge = edges[k] = uint32_t(m_.edges.size());
+      use.curve = TrimCurve(a, b, 0, 1);
+      m_.edges.push_back(std::move(edge));
+    }
+    m_.uses.push_back(std::move(use));
+  }
+  loop.endUse = uint32_t(m_.uses.size());
+  m_.loops.push_back(loop);
+  face.endLoop = uint32_t(m_.loops.size());
+}
+
+void ModelReader::addLoops() {
+  for (uint32_t f = 0; f < m_.faces.size(); ++f)
+    if (!m_.faces[f].isLeftOut && m_.faces[f].firstLoop == m_.faces[f].endLoop) addLoop(f);
+}
+
+/// Whether a use's curve stays in the domain, with its edge, and ends where the next one begins.
+bool ModelReader::checkUse(uint32_t number) {
+  ModelUse& use = m_.uses[number];
+  if (!use.curve.isFound()) return failUse(SurfaceFault::EdgeApart, number), false;
+  const ModelEdge& edge = m_.edges[use.edge];
+  const BezierSpans &u = m_.faces[use.face].surface->u(), &v = m_.faces[use.face].surface->v();
+  const double u0 = u.breaks()[0], u1 = u.breaks()[u.count()], v0 = v.breaks()[0],
+               v1 = v.breaks()[v.count()];
+  const double slackU = kDomainSlack * (u1 - u0), slackV = kDomainSlack * (v1 - v0);
+  const double slack = edge.tolerance + kSpaceSlack * m_.diagonal();
+  const Vec3 first = onSurface(use, use.curve.at(edge.from));
+  const uint32_t pieces = std::min(4 * (use.curve.curve().spans().count() + 1), 4000u);
+  for (uint32_t i = 0; i <= pieces; ++i) {
+    const double t = edge.from + (edge.to - edge.from) * i / pieces;
+    const Point2 p = use.curve.at(t);
+    if (p.x < u0 - slackU || p.x > u1 + slackU || p.y < v0 - slackV || p.y > v1 + slackV)
+      return failUse(SurfaceFault::TrimOutside, number), false;
+    if (!edge.curve && !edge.isDegenerate) continue;
+    const Vec3 other = edge.isDegenerate ? first : edge.curve->at(t).at;
+    if (!(distance(onSurface(use, p), other) <= slack))
+      return failUse(SurfaceFault::EdgeApart, number), false;
+  }
+  if (!edge.curve && !edge.isDegenerate && edge.firstUse != number &&
+      m_.uses[edge.firstUse].face != use.face)
+    return failUse(SurfaceFault::BadEdge, number), false;
+  const uint32_t next = m_.after(number);
+  const ModelUse& after = m_.uses[next];
+  if (!after.curve.isFound()) return failUse(SurfaceFault::EdgeApart, next), false;
+  const ModelEdge& edgeAfter = m_.edges[after.edge];
+  const Point2 end = use.curve.at(use.isReversed ? edge.from : edge.to);
+  const Point2 begin = after.curve.at(after.isReversed ? edgeAfter.to : edgeAfter.from);
+  const double gap =
+      std::max(std::fabs(end.x - begin.x) / (u1 - u0), std::fabs(end.y - begin.y) / (v1 - v0));
+  const double apart = distance(onSurface(use, end), onSurface(use, begin));
+  if (gap > kDomainSlack && (gap > kLargestGap || apart > slack + edgeAfter.tolerance))
+    return failUse(SurfaceFault::TrimOpen, number), false;
+  return true;
+}
+
+void ModelReader::checkUses() {
+  const auto isThere = [&](const ModelUse& use) { return !m_.faces[use.face].isLeftOut; };
+  for (uint32_t u = 0; u < m_.uses.size(); ++u) {
+    if (!isThere(m_.uses[u])) continue;
+    ModelEdge& edge = m_.edges[m_.uses[u].edge];
+    if (edge.firstUse == kNone) edge.firstUse = u;
+    ++edge.uses;
+  }
+  for (uint32_t u = 0; u < m_.uses.size(); ++u)
+    if (isThere(m_.uses[u])) checkUse(u);
+  // Of the faces that are left.
+  for (ModelEdge& edge : m_.edges) edge.firstUse = kNone, edge.uses = 0;
+  for (uint32_t u = 0; u < m_.uses.size(); ++u) {
+    if (!isThere(m_.uses[u])) continue;
+    ModelEdge& edge = m_.edges[m_.uses[u].edge];
+    if (edge.firstUse == kNone) edge.firstUse = u;
+    ++edge.uses;
+  }
+}
+
+/// Numbers the vertices.
+void ModelReader::unite() {
+  const auto end = [&](uint32_t use, bool isAtEnd) {
+    const ModelUse& u = m_.uses[use];
+    return 2 * u.edge + uint32_t(isAtEnd != u.isReversed);
+  };
+  UnionFind ends(uint32_t(2 * m_.edges.size()));
+  for (uint32_t u = 0; u < m_.uses.size(); ++u)
+    if (!m_.faces[m_.uses[u].face].isLeftOut) ends.unite(end(u, true), end(m_.after(u), false));
+  for (uint32_t e = 0; e < m_.edges.size(); ++e)
+    if (m_.edges[e].isDegenerate) ends.unite(2 * e, 2 * e + 1);
+  // Loops that touch do so at a vertex of both.
+  struct Corner {
+    Point2 at;
+    uint32_t end;
+  };
+  std::vector<Corner> corners;
+  for (const ModelFace& face : m_.faces) {
+    if (face.isLeftOut || face.endLoop - face.firstLoop < 2) continue;
+    corners.clear();
+    const BezierSpans &u = face.surface->u(), &v = face.surface->v();
+    const double nearU = kDomainSlack * (u.breaks()[u.count()] - u.breaks()[0]),
+                 nearV = kDomainSlack * (v.breaks()[v.count()] - v.breaks()[0]);
+    for (uint32_t use = m_.loops[face.firstLoop].firstUse; use < m_.loops[face.endLoop - 1].endUse;
+         ++use) {
+      const ModelEdge& edge = m_.edges[m_.uses[use].edge];
+      if (edge.isDegenerate) continue;
+      corners.push_back(
+          {m_.uses[use].curve.at(m_.uses[use].isReversed ? edge.to : edge.from), end(use, false)});
+    }
+    std::sort(corners.begin(), corners.end(),
+              [](const Corner& a, const Corner& b) { return a.at.x < b.at.x; });
+    for (size_t i = 0; i < corners.size(); ++i)
+      for (size_t k = i + 1; k < corners.size() && corners[k].at.x - corners[i].at.x <= nearU; ++k)
+        if (std::fabs(corners[k].at.y - corners[i].at.y) <= nearV)
+          ends.unite(corners[i].end, corners[k].end);
+  }
+  std::vector<uint32_t> numbers(2 * m_.edges.size(), kNone);
+  m_.vertices = 0;
+  for (uint32_t e = 0; e < m_.edges.size(); ++e)
+    for (const bool isAtEnd : {false, true}) {
+      uint32_t& number = numbers[ends.rootOf(2 * e + uint32_t(isAtEnd))];
+      if (number == kNone) number = m_.vertices++;
+      (isAtEnd ? m_.edges[e].toVertex : m_.edges[e].fromVertex) = number;
+    }
+}
+
+}  // namespace
+
+bool readModel(const ModelArrays& arrays, Work& work, Charge& charge, Model& model,
+               std::vector<ModelFault>& faults) {
+  // Bézier points, the factors that they are made by, and room for the lists that grow.
+  const uint64_t bytes =
+      8 * (24 * uint64_t(arrays.numbers.size()) + 32 * uint64_t(arrays.shape.size()));
+  if (!charge.add(bytes)) return false;
+  ModelReader reader(arrays, work, model);
+  if (!reader.read()) return model = {}, false;
+  reader.findBox();
+  reader.addLoops();
+  reader.checkUses();
+  reader.unite();
+  faults.swap(reader.faults);
+  std::stable_sort(faults.begin(), faults.end(),
+                   [](const ModelFault& a, const ModelFault& b) { return a.face < b.face; });
+  return work.going();
+}
+
+}  // namespace sf
