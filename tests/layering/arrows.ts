@@ -55,9 +55,11 @@ const kPublic = [
   'soapfilm',
   'soapfilm/worker',
   'soapfilm/files',
+  'soapfilm/surfaces',
   'soapfilm/loops.wasm',
   'soapfilm/polygons.wasm',
   'soapfilm/meshes.wasm',
+  'soapfilm/surfaces.wasm',
   'soapfilm/package.json',
 ];
 

@@ -1,6 +1,7 @@
 // The C ABI of soapfilm's core, for the TypeScript runtime and for native tests. It takes plain pointers and
 // counts. Nothing throws, and every call checks its input. loops.wasm exports sf_span_loops; polygons.wasm
-// exports the functions for polygons, meshes.wasm those for meshes; all export those for memory and result arrays.
+// exports the functions for polygons, meshes.wasm those for meshes, surfaces.wasm those for trimmed surfaces; all
+// export those for memory and result arrays.
 //
 // Threads: no function may be called from two threads at once. Each instance of a module, or each native
 //   process, runs one call at a time. Instances share nothing.

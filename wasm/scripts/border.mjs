@@ -30,11 +30,12 @@ const kHead = `// Made by wasm/scripts/border.mjs from wasm/include/soapfilm_tab
 /** Hands over the array of that number of a result. */
 export interface ArrayReader {
   (array: number, type: Float64ArrayConstructor): Float64Array;
+  (array: number, type: Float32ArrayConstructor): Float32Array;
   (array: number, type: Uint32ArrayConstructor): Uint32Array;
 }
 `;
 
-const kNumbers = { double: 'Float64Array', uint32_t: 'Uint32Array' };
+const kNumbers = { double: 'Float64Array', float: 'Float32Array', uint32_t: 'Uint32Array' };
 
 /** The tables of the header: `{ name: 'SPAN', kind: 'ARRAYS', entries: [[type, name, meaning], …] }`. */
 function readTables(text) {

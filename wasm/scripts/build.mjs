@@ -1,5 +1,5 @@
 // npm run build [core | library | page]: builds what has changed, all of it without an argument.
-//   core     wasm/src → loops.wasm, polygons.wasm, meshes.wasm
+//   core     wasm/src → loops.wasm, polygons.wasm, meshes.wasm, surfaces.wasm
 //   library  core, and wasm/ts → the package in wasm/dist
 //   page     library, and web → the static page in web/dist
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
@@ -12,7 +12,7 @@ import { checkNode, emscriptenEnvironment, ensureNodeModules, ensureTools } from
 
 const dist = path.join(root, 'wasm/dist');
 /** The core's parts, each a CMake target. */
-const modules = ['loops.wasm', 'polygons.wasm', 'meshes.wasm'];
+const modules = ['loops.wasm', 'polygons.wasm', 'meshes.wasm', 'surfaces.wasm'];
 const built = modules.map((name) => `wasm/dist/${name}`);
 const scripts = ['wasm/scripts/build.mjs', 'wasm/scripts/border.mjs'];
 const packages = ['package.json', 'package-lock.json'];

@@ -3,6 +3,7 @@
 /** Hands over the array of that number of a result. */
 export interface ArrayReader {
   (array: number, type: Float64ArrayConstructor): Float64Array;
+  (array: number, type: Float32ArrayConstructor): Float32Array;
   (array: number, type: Uint32ArrayConstructor): Uint32Array;
 }
 
@@ -730,4 +731,210 @@ export const kSmoothNumbersLength = 2;
 export const readSmoothNumbers = (from: ArrayLike<number>, at = 0): SmoothNumbers => ({
   area: from[at],
   isMinimal: from[at + 1],
+});
+
+export const kSurfaceFaultChoices = ['bad-knots', 'bad-weights', 'not-finite', 'bad-edge', 'bad-domain', 'trim-outside', 'trim-open', 'edge-apart', 'trim-self-intersects', 'trims-cross', 'hole-outside', 'degenerate'] as const;
+
+export interface FaceFault {
+  /** a choice of SF_SURFACE_FAULT_CHOICES */
+  readonly fault: number;
+  /** the face */
+  readonly face: number;
+  /** its loop, or 0xFFFFFFFF */
+  readonly loop: number;
+  /** the use in this loop, or 0xFFFFFFFF */
+  readonly use: number;
+  /** the other loop of two that cross, or 0xFFFFFFFF */
+  readonly otherLoop: number;
+  /** the edge, or 0xFFFFFFFF */
+  readonly edge: number;
+}
+
+/** How many numbers of an array make one. */
+export const kFaceFaultLength = 6;
+
+/** The one that begins at index `at`. */
+export const readFaceFault = (from: ArrayLike<number>, at = 0): FaceFault => ({
+  fault: from[at],
+  face: from[at + 1],
+  loop: from[at + 2],
+  use: from[at + 3],
+  otherLoop: from[at + 4],
+  edge: from[at + 5],
+});
+
+export interface SurfacesArrays {
+  /** [1] the number of the session */
+  readonly session: Uint32Array;
+  /** FaceFault: [f] the faces that are left out, in order */
+  readonly faults: Uint32Array;
+  /** [6] least and greatest corner around all faces left in */
+  readonly box: Float64Array;
+}
+
+export const readSurfacesArrays = (array: ArrayReader): SurfacesArrays => ({
+  session: array(0, Uint32Array),
+  faults: array(1, Uint32Array),
+  box: array(2, Float64Array),
+});
+
+export interface SamplingSettings {
+  /** most distance of mesh and surface, positive */
+  readonly tolerance: number;
+  /** most turn of the normal along an edge in radians, up to pi; more: none */
+  readonly angle: number;
+  /** how long cells may be for their width, from 1 on; infinity: any length */
+  readonly aspect: number;
+  /** most triangles; infinity: any number */
+  readonly maxTriangles: number;
+  /** time after which what there is is handed out; infinity: any time */
+  readonly maxSeconds: number;
+  /** 1 if what follows counts, else 0 */
+  readonly hasCamera: number;
+  readonly eyeX: number;
+  readonly eyeY: number;
+  readonly eyeZ: number;
+  /** view and projection, column by column */
+  readonly m0: number;
+  readonly m1: number;
+  readonly m2: number;
+  readonly m3: number;
+  readonly m4: number;
+  readonly m5: number;
+  readonly m6: number;
+  readonly m7: number;
+  readonly m8: number;
+  readonly m9: number;
+  readonly m10: number;
+  readonly m11: number;
+  readonly m12: number;
+  readonly m13: number;
+  readonly m14: number;
+  readonly m15: number;
+  /** of the picture in pixels */
+  readonly width: number;
+  readonly height: number;
+  /** most distance of mesh and surface on the picture, positive */
+  readonly pixels: number;
+}
+
+export const packSamplingSettings = (settings: SamplingSettings): Float64Array =>
+  Float64Array.of(
+    settings.tolerance,
+    settings.angle,
+    settings.aspect,
+    settings.maxTriangles,
+    settings.maxSeconds,
+    settings.hasCamera,
+    settings.eyeX,
+    settings.eyeY,
+    settings.eyeZ,
+    settings.m0,
+    settings.m1,
+    settings.m2,
+    settings.m3,
+    settings.m4,
+    settings.m5,
+    settings.m6,
+    settings.m7,
+    settings.m8,
+    settings.m9,
+    settings.m10,
+    settings.m11,
+    settings.m12,
+    settings.m13,
+    settings.m14,
+    settings.m15,
+    settings.width,
+    settings.height,
+    settings.pixels,
+  );
+
+export const kSurfaceReportChoices = ['left-out', 'crossing-samples', 'tolerance-raised', 'above-tolerance', 'time-over'] as const;
+
+export interface SurfaceReport {
+  /** a choice of SF_SURFACE_REPORT_CHOICES */
+  readonly report: number;
+  /** the face, or -1 */
+  readonly face: number;
+  /** of a face left out: a choice of SF_SURFACE_FAULT_CHOICES, else -1 */
+  readonly fault: number;
+  /** how many intervals were halved; the tolerance kept to; the deviation; or 0 */
+  readonly value: number;
+}
+
+/** How many numbers of an array make one. */
+export const kSurfaceReportLength = 4;
+
+/** The one that begins at index `at`. */
+export const readSurfaceReport = (from: ArrayLike<number>, at = 0): SurfaceReport => ({
+  report: from[at],
+  face: from[at + 1],
+  fault: from[at + 2],
+  value: from[at + 3],
+});
+
+export interface TessellationNumbers {
+  /** what positions are relative to */
+  readonly originX: number;
+  readonly originY: number;
+  readonly originZ: number;
+  /** largest distance of mesh and surface measured */
+  readonly deviation: number;
+  /** the tolerance kept to */
+  readonly tolerance: number;
+}
+
+/** How many numbers of an array make one. */
+export const kTessellationNumbersLength = 5;
+
+/** The one that begins at index `at`. */
+export const readTessellationNumbers = (from: ArrayLike<number>, at = 0): TessellationNumbers => ({
+  originX: from[at],
+  originY: from[at + 1],
+  originZ: from[at + 2],
+  deviation: from[at + 3],
+  tolerance: from[at + 4],
+});
+
+export interface TessellationArrays {
+  /** [3n] relative to the origin */
+  readonly positions: Float32Array;
+  /** [3n] unit */
+  readonly normals: Float32Array;
+  /** [2n] parameters of the surface */
+  readonly uvs: Float32Array;
+  /** [3m] counter-clockwise seen from where normals point */
+  readonly triangles: Uint32Array;
+  /** [f+1] in triangles */
+  readonly faceStarts: Uint32Array;
+  /** vertices of strips, in the order of OpenGL */
+  readonly strips: Uint32Array;
+  /** [s+1] */
+  readonly stripStarts: Uint32Array;
+  /** vertices along each edge, of one of its faces */
+  readonly edges: Uint32Array;
+  /** [e+1] */
+  readonly edgeStarts: Uint32Array;
+  /** [n] the first vertex at the same place */
+  readonly same: Uint32Array;
+  /** SurfaceReport: [r] what is to be told */
+  readonly reports: Float64Array;
+  /** TessellationNumbers: [1] */
+  readonly numbers: Float64Array;
+}
+
+export const readTessellationArrays = (array: ArrayReader): TessellationArrays => ({
+  positions: array(0, Float32Array),
+  normals: array(1, Float32Array),
+  uvs: array(2, Float32Array),
+  triangles: array(3, Uint32Array),
+  faceStarts: array(4, Uint32Array),
+  strips: array(5, Uint32Array),
+  stripStarts: array(6, Uint32Array),
+  edges: array(7, Uint32Array),
+  edgeStarts: array(8, Uint32Array),
+  same: array(9, Uint32Array),
+  reports: array(10, Float64Array),
+  numbers: array(11, Float64Array),
 });

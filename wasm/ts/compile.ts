@@ -24,6 +24,10 @@ const kFiles: Readonly<
     file: () => new URL('./meshes.wasm', import.meta.url),
     copy: () => import('./meshes_inline.js'),
   },
+  surfaces: {
+    file: () => new URL('./surfaces.wasm', import.meta.url),
+    copy: () => import('./surfaces_inline.js'),
+  },
 };
 
 const compiling = new Map<Part, Promise<WebAssembly.Module>>();

@@ -21,6 +21,15 @@ export type ErrorCode =
   | 'holes-overlap'
   | 'nested-hole'
   | 'degenerate'
+  | 'bad-model'
+  | 'bad-knots'
+  | 'bad-edge'
+  | 'bad-domain'
+  | 'trim-outside'
+  | 'trim-open'
+  | 'trim-self-intersects'
+  | 'trims-cross'
+  | 'edge-apart'
   | 'bad-file'
   | 'too-large'
   | 'out-of-memory'
@@ -45,9 +54,11 @@ export interface ErrorPlace {
   readonly polygon?: number;
   /** Where a fault of a polygon lies, such as the place where two edges cross; rounded. */
   readonly point?: readonly number[];
-  /** Index of a face of a mesh. */
+  /** Index of a face of a mesh or of a model; in a model `loop` is counted in its face. */
   readonly face?: number;
-  /** Index in a list of edges, such as `boundaryNormals` of `smoothSurface`. */
+  /** Index of an edge's use in a loop of a model. */
+  readonly use?: number;
+  /** Index in a list of edges, such as `boundaryNormals` of `smoothSurface` and those of a model. */
   readonly edge?: number;
   /** The two vertices of an edge of a mesh. */
   readonly edgeVertices?: readonly [number, number];
@@ -66,6 +77,7 @@ export class SoapfilmError extends Error implements ErrorPlace {
   readonly polygon?: number;
   readonly point?: readonly number[];
   readonly face?: number;
+  readonly use?: number;
   readonly edge?: number;
   readonly edgeVertices?: readonly [number, number];
   readonly line?: number;

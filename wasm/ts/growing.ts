@@ -19,6 +19,16 @@ export class Growing<T extends Kind> {
     return this.items[index];
   }
 
+  /** Sets one that there is. */
+  set(index: number, value: number): void {
+    this.items[index] = value;
+  }
+
+  /** Copies all to where they begin in another array. */
+  copyTo(target: Kind, begin: number): void {
+    target.set(this.items.subarray(0, this.length), begin);
+  }
+
   taken(): T {
     return this.items.slice(0, this.length) as T;
   }

@@ -15,7 +15,7 @@ import type {
   Weights,
 } from './types.js';
 
-export const kPartNames: Names<Record<Part, unknown>> = { loops: true, polygons: true, meshes: true };
+export const kPartNames: Names<Record<Part, unknown>> = { loops: true, polygons: true, meshes: true, surfaces: true };
 
 export const kParts = Object.keys(kPartNames) as readonly Part[];
 

@@ -52,6 +52,7 @@ export const shared: Readonly<Record<Part, Home>> = {
   loops: new Home('loops'),
   polygons: new Home('polygons'),
   meshes: new Home('meshes'),
+  surfaces: new Home('surfaces'),
 };
 
 /** The default memory limit of a call; WebAssembly memory ends at 4 GiB. */
@@ -381,6 +382,8 @@ function copyIn(memory: WebAssembly.Memory, next: number, args: readonly CoreArg
   });
 }
 
+type ResultArray = Float64Array | Float32Array | Uint32Array;
+
 /**
  * The arrays of a result: copies, or lent by `lender`.
  * @throws SoapfilmError `out-of-memory` if there is no room for copies
@@ -394,8 +397,8 @@ function readArrays<T>(
   const { memory, resultData, resultLength } = core;
   const array = (
     index: number,
-    type: Float64ArrayConstructor | Uint32ArrayConstructor,
-  ): Float64Array | Uint32Array => {
+    type: Float64ArrayConstructor | Float32ArrayConstructor | Uint32ArrayConstructor,
+  ): ResultArray => {
     const length = resultLength(handle, index) >>> 0;
     if (length === 0) return new type(0);
     const view = new type(memory.buffer, resultData(handle, index) >>> 0, length);
@@ -407,7 +410,7 @@ function readArrays<T>(
   return read(array as ArrayReader);
 }
 
-function copyOf<V extends Float64Array | Uint32Array>(view: V): V & { readonly buffer: ArrayBuffer } {
+function copyOf<V extends ResultArray>(view: V): V & { readonly buffer: ArrayBuffer } {
   try {
     return view.slice() as V & { readonly buffer: ArrayBuffer };
   } catch (cause) {

@@ -20,7 +20,12 @@ class Room extends Home {
   culprit?: number;
 }
 
-const roomsOf: Readonly<Record<Part, Set<Room>>> = { loops: new Set(), polygons: new Set(), meshes: new Set() };
+const roomsOf: Readonly<Record<Part, Set<Room>>> = {
+  loops: new Set(),
+  polygons: new Set(),
+  meshes: new Set(),
+  surfaces: new Set(),
+};
 
 /** The room for a new session: a new room, or if there can be no more, the one with the fewest sessions. */
 function roomFor(part: Part): Room {

@@ -664,9 +664,9 @@ export interface SmoothSurface {
  * A part of the core that can be loaded by itself. `'loops'` is `loops.wasm`, for `spanLoops`. `'polygons'`
  * is `polygons.wasm`, for `triangulatePolygon`, `triangulatePolygons`, `triangulateGeoJSON` and
  * `PolygonSession`. `'meshes'` is `meshes.wasm`, for `findHoles`, `fillHoles`, `MeshSession` and
- * `smoothSurface`.
+ * `smoothSurface`. `'surfaces'` is `surfaces.wasm`, for `TrimmedModel` and `TrimmedSurface` of `soapfilm/surfaces`.
  */
-export type Part = 'loops' | 'polygons' | 'meshes';
+export type Part = 'loops' | 'polygons' | 'meshes' | 'surfaces';
 
 /** A WebAssembly module: compiled, as bytes, as a response that holds them, or as the place of its file. */
 export type WasmSource = URL | string | Response | BufferSource | WebAssembly.Module;
