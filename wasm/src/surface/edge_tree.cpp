@@ -73,10 +73,10 @@ EdgeTree::EdgeTree(const Model& model, uint32_t edge, ArrayView<const uint32_t> 
 
 Vec3 EdgeTree::at(double t) const {
   const ModelEdge& e = model_->edges[edge_];
-  if (e.curve) return e.curve->at(t).at;
+  if (e.curve) return e.curve->placeAt(t);
   const ModelUse& use = model_->uses[e.firstUse];
   const Point2 p = use.curve.at(t);
-  return model_->faces[use.face].surface->at(p.x, p.y).at;
+  return model_->faces[use.face].surface->tangentsAt(p.x, p.y).at;
 }
 
 uint32_t EdgeTree::add(double a, Vec3 from, double b, Vec3 to) {

@@ -311,7 +311,7 @@ FaceProblem FaceMesher::check(uint32_t face, const EdgeSamples& samples, Work& w
 }
 
 double FaceMesher::State::deviationAt(Point2 uv, Vec3 at) const {
-  const SurfacePoint p = surface->at(uv.x, uv.y);
+  const TangentPoint p = surface->tangentsAt(uv.x, uv.y);
   const Vec3 n = p.normal();
   const double size = length(n);
   const Vec3 d = p.at - at;
@@ -369,7 +369,7 @@ void FaceMesher::State::measureCells(const Density::Lines& lines, bool& isRefine
       const size_t c = size_t(i) * (nv - 1) + j;
       m = at(centers, c), n = at(centerNormals, c);
     } else {
-      const SurfacePoint p = surface->at(middleUs[i], middleVs[j]);
+      const TangentPoint p = surface->tangentsAt(middleUs[i], middleVs[j]);
       m = p.at, n = p.normal();
       const double size = length(n);
       n = size > 0 ? (1 / size) * n : Vec3{};
@@ -427,8 +427,8 @@ uint32_t FaceMesher::State::gridVertexAt(uint32_t name) {
       isMet[v] = 1, mesh->roles[v] = FaceMesh::Role::Grid;
       return v;
     }
-    v = addVertex(uv, surface->at(uv.x, uv.y).at, surface->normalAt(uv.x, uv.y),
-                  FaceMesh::Role::Grid);
+    const TangentPoint p = surface->tangentsAt(uv.x, uv.y);
+    v = addVertex(uv, p.at, surface->normalOf(p, uv.x, uv.y), FaceMesh::Role::Grid);
     table.add(v, mesh->uvs);
     return v;
   }
@@ -731,8 +731,9 @@ bool FaceMesher::State::refineBand() {
         fits = fits && turns(p, q, to);
       }
       if (!fits) continue;
-      const uint32_t v = addVertex(uv, surface->at(uv.x, uv.y).at, surface->normalAt(uv.x, uv.y),
-                                   FaceMesh::Role::Added);
+      const TangentPoint added = surface->tangentsAt(uv.x, uv.y);
+      const uint32_t v =
+          addVertex(uv, added.at, surface->normalOf(added, uv.x, uv.y), FaceMesh::Role::Added);
       if (v == bandAt.size())
         bandAt.push_back(to);
       else
