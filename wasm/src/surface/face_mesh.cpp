@@ -93,7 +93,7 @@ struct FaceMesher::State {
   // For the triangulators.
   std::vector<double> xy, islandXy;
   std::vector<uint32_t> starts, vertices, bandTwins, bandStrips, bandStripStarts, bandCorners;
-  PolygonTriangulation found;
+  std::vector<uint32_t> bandFound;
   std::vector<double> middleUs, middleVs;
   std::vector<uint32_t> known, opposite;
   std::vector<uint8_t> isNew;
@@ -537,10 +537,7 @@ FaceProblem FaceMesher::State::triangulateBand() {
     islands.push_back(p.x), islands.push_back(p.y);
     vertices.push_back(gridVertexAt(name));
   }
-  PolygonOptions options;
-  options.delaunay = true;
-  const Outcome outcome =
-      triangulator.triangulate({xy, starts, islands, true}, options, *work, found);
+  const Outcome outcome = triangulator.floodDelaunay({xy, starts, islands, true}, *work, bandFound);
   if (!work->going()) return problemOf({work->status()});
   if (!outcome.ok()) {
     const FaceProblem problem = checkRings();
@@ -552,7 +549,7 @@ FaceProblem FaceMesher::State::triangulateBand() {
     return unknown;
   }
   band.corners.clear();
-  for (const uint32_t v : found.triangles) band.corners.push_back(vertices[v]);
+  for (const uint32_t v : bandFound) band.corners.push_back(vertices[v]);
   bandOff.assign(band.corners.size() / 3, Sampling::kNoLimit);
   return {};
 }
