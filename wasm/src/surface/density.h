@@ -91,8 +91,13 @@ class Density {
   };
   void choose(double tolerance, const Fineness& fineness, Lines& lines);
 
-  /// How long an edge's intervals may be beside such cells: as the longer side of a usual cell. Infinite where there is one.
+  /// How long an edge's intervals may be beside such cells: as some of the longer sides of a usual cell. Infinite where there is
+  /// one cell.
   double longest(const Lines& lines) const;
+
+  /// How much shorter a domain is to be taken along u, x, and along v, y, so that cells far longer than wide do not seem so:
+  /// triangles beside them are then as long.
+  Point2 shortening(const Lines& lines) const;
 
   LineTree u, v;
   /// Whether the surface is a plane within the box.

@@ -18,6 +18,9 @@ namespace {
 /// Corners of one vertex within this share of the domain are one.
 constexpr double kSameCorner = 1e-6;
 constexpr int kMostRefinings = 8, kMostRounds = 16;
+constexpr int kMostFlipRounds = 3;
+/// Squares of sines: angles above 25 degrees are good, and one is better than another if it is so by a tenth.
+constexpr double kGoodAngle = 0.18, kBetter = 1.2;
 /// A band that changes in more places than this is made anew.
 constexpr size_t kMostChanges = 64;
 
@@ -138,6 +141,7 @@ struct FaceMesher::State {
   bool patchBand();
   void findChanges(std::vector<Box2>& changed) const;
   bool refineBand();
+  void improveAngles();
   double deviationAt(Point2 uv, Vec3 at) const;
   uint32_t addVertex(Point2 uv, Vec3 at, Vec3 normal, FaceMesh::Role role);
   void finish();
@@ -671,6 +675,7 @@ bool FaceMesher::State::refineBand() {
   if (!findTwins(band.corners, uint32_t(bandAt.size()), *work, band.twins)) return false;
   if (density->isFlat()) {
     std::fill(bandOff.begin(), bandOff.end(), 0);
+    improveAngles();
     return true;
   }
   const auto at = [&](uint32_t v) -> Vec3 { return mesh->positions[v]; };
@@ -762,8 +767,52 @@ bool FaceMesher::State::refineBand() {
       known.resize(band.corners.size(), kNone);
     }
   }
+  improveAngles();
   for (const double off : bandOff) mesh->deviation = std::max(mesh->deviation, off);
   return work->going();
+}
+
+/// Flips edges of the band where the least angle of both triangles in space becomes larger, and the new edge is near the
+/// surface. Delaunay triangles of the domain are such of space only where it is not stretched there.
+void FaceMesher::State::improveAngles() {
+  const auto at = [&](uint32_t v) -> Vec3 { return mesh->positions[v]; };
+  // The square of the sine of the least angle: twice the area over the two longer sides.
+  const auto quality = [&](uint32_t a, uint32_t b, uint32_t c) {
+    const Vec3 p = at(a), q = at(b), r = at(c);
+    const Vec3 n = cross(q - p, r - p);
+    const Vec3 d = q - p, e = r - q, f = p - r;
+    const double x = dot(d, d), y = dot(e, e), z = dot(f, f);
+    const double shortest = std::min({x, y, z}), product = x * y * z;
+    return product > 0 ? dot(n, n) * shortest / product : 0;
+  };
+  band.at = bandAt, band.metric = bandAt;
+  for (int round = 0; round < kMostFlipRounds; ++round) {
+    bool any = false;
+    for (uint32_t h = 0; h < band.corners.size(); ++h) {
+      const uint32_t g = band.twins[h];
+      if (g == kNone || g < h) continue;
+      const uint32_t a = band.from(h), b = band.to(h), c = band.apex(h), d = band.apex(g);
+      const auto pole = [&](uint32_t v) { return mesh->poles[v] != v; };
+      if (pole(a) || pole(b) || pole(c) || pole(d)) continue;
+      const double before = std::min(quality(a, b, c), quality(b, a, d));
+      if (before > kGoodAngle) continue;
+      const double after = std::min(quality(c, d, b), quality(d, c, a));
+      if (after <= kBetter * before) continue;
+      if (!(turn(bandAt[c], bandAt[d], bandAt[b]) > 0 && turn(bandAt[d], bandAt[c], bandAt[a]) > 0))
+        continue;
+      double off = std::max(bandOff[h / 3], bandOff[g / 3]);
+      if (density->bound(mesh->uvs[c], mesh->uvs[d]) >= 0.25 * tolerance) {
+        const Point2 uv = unscaled(middle(bandAt[c], bandAt[d]));
+        const double here = deviationAt(uv, middle(at(c), at(d)));
+        if (here > tolerance) continue;
+        off = std::max(off, here);
+      }
+      band.flip(h);
+      bandOff[h / 3] = bandOff[g / 3] = off;
+      any = true;
+    }
+    if (!any) break;
+  }
 }
 
 /// Triangles and strips of the whole face, on its own side, and what the next update begins with.
@@ -813,6 +862,8 @@ FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& 
   std::vector<double> us, vs;
   density.u.lines(lines.u, us), density.v.lines(lines.v, vs);
   s.origin = {us[0], vs[0]}, s.scale = {positive(density.speedU()), positive(density.speedV())};
+  const Point2 shorter = density.shortening(lines);
+  s.scale.x *= shorter.x, s.scale.y *= shorter.y;
   for (size_t i = 0; i < s.rings.at.size(); ++i) s.rings.at[i] = s.scaled(s.rings.uvs[i]);
   FaceProblem problem;
   problem.kind = FaceProblem::Kind::Ended;
