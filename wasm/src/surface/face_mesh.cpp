@@ -18,6 +18,8 @@ namespace {
 /// Corners of one vertex within this share of the domain are one.
 constexpr double kSameCorner = 1e-6;
 constexpr int kMostRefinings = 8, kMostRounds = 16;
+/// Shorter intervals of an edge, as a share of it, are not halved because its surface is off.
+constexpr double kShortInterval = 1e-8;
 constexpr int kMostFlipRounds = 3;
 /// Squares of sines: angles above 25 degrees are good, and one is better than another if it is so by a tenth.
 constexpr double kGoodAngle = 0.18, kBetter = 1.2;
@@ -104,7 +106,9 @@ struct FaceMesher::State {
   // Of the face at hand.
   uint32_t face = 0;
   const NurbsSurface* surface = nullptr;
+  const EdgeSamples* samples = nullptr;
   Rings rings;
+  std::vector<uint32_t> ringOf;  // [vertices] the place in the rings, if it is wanted
   Point2 origin{}, scale{1, 1};
   FaceMesh* mesh = nullptr;
   Density* density = nullptr;
@@ -128,7 +132,7 @@ struct FaceMesher::State {
   Point2 unscaled(Point2 p) const { return {origin.x + p.x / scale.x, origin.y + p.y / scale.y}; }
 
   Point2 sharedCorner(uint32_t vertex, Point2 uv);
-  void begin(uint32_t f, const EdgeSamples& samples, FaceMesh& out);
+  void begin(uint32_t f, const EdgeSamples& all, FaceMesh& out);
   FaceProblem problemOf(const Outcome& outcome) const;
   FaceProblem checkRings();
   bool meshGrid(Density::Lines& lines);
@@ -140,7 +144,8 @@ struct FaceMesher::State {
   FaceProblem triangulateBand();
   bool patchBand();
   void findChanges(std::vector<Box2>& changed) const;
-  bool refineBand();
+  FaceProblem refineBand();
+  bool edgeIsOff(uint32_t from, uint32_t to, FaceProblem& problem);
   void improveAngles();
   double deviationAt(Point2 uv, Vec3 at) const;
   uint32_t addVertex(Point2 uv, Vec3 at, Vec3 normal, FaceMesh::Role role);
@@ -179,8 +184,8 @@ Point2 FaceMesher::State::sharedCorner(uint32_t vertex, Point2 uv) {
 }
 
 /// Lays out the rings, and their vertices in the mesh.
-void FaceMesher::State::begin(uint32_t f, const EdgeSamples& samples, FaceMesh& out) {
-  face = f, mesh = &out;
+void FaceMesher::State::begin(uint32_t f, const EdgeSamples& all, FaceMesh& out) {
+  face = f, mesh = &out, samples = &all;
   if (!updates) out.clear();
   surface = model.faces[f].surface.get();
   isMet.assign(out.positions.size(), 0);
@@ -203,13 +208,13 @@ void FaceMesher::State::begin(uint32_t f, const EdgeSamples& samples, FaceMesh& 
     for (uint32_t u = loop.firstUse; u < loop.endUse; ++u) {
       const ModelUse& use = model.uses[u];
       const ModelEdge& edge = model.edges[use.edge];
-      const std::vector<EdgeSample>& of = samples.of[use.edge];
+      const std::vector<EdgeSample>& of = all.of[use.edge];
       const uint32_t count = uint32_t(of.size());
       firsts.push_back(uint32_t(uvs.size()));
       for (uint32_t k = 0; k + 1 < count; ++k) {
         const uint32_t s = use.isReversed ? count - 1 - k : k;
         Point2 uv = use.curve.at(of[s].t);
-        uint32_t place = samples.firstPlace[use.edge] + s - 1;
+        uint32_t place = all.firstPlace[use.edge] + s - 1;
         if (k == 0) {
           // Where two uses meet, in the middle between them.
           const uint32_t b = u == loop.firstUse ? loop.endUse - 1 : u - 1;
@@ -667,22 +672,50 @@ bool FaceMesher::State::patchBand() {
   return true;
 }
 
+/// Whether the edge of the model from one vertex to the next of a ring is off the surface in its middle.
+bool FaceMesher::State::edgeIsOff(uint32_t from, uint32_t to, FaceProblem& problem) {
+  if (ringOf.empty()) {
+    ringOf.assign(mesh->positions.size(), kNone);
+    for (uint32_t i = 0; i < rings.vertex.size(); ++i) ringOf[rings.vertex[i]] = i;
+  }
+  const uint32_t i = from < ringOf.size() ? ringOf[from] : kNone;
+  if (i == kNone) return false;
+  const size_t ring =
+      size_t(std::upper_bound(rings.starts.begin(), rings.starts.end(), i) - rings.starts.begin());
+  const uint32_t next = i + 1 == rings.starts[ring] ? rings.starts[ring - 1] : i + 1;
+  if (rings.vertex[next] != to) return false;
+  const uint32_t use = rings.use[i], sample = rings.sample[i];
+  const std::vector<EdgeSample>& of = samples->of[model.uses[use].edge];
+  const ModelEdge& edge = model.edges[model.uses[use].edge];
+  if (of[sample + 1].t - of[sample].t < kShortInterval * (edge.to - edge.from)) return false;
+  const double t = 0.5 * (of[sample].t + of[sample + 1].t);
+  const double off =
+      deviationAt(model.uses[use].curve.at(t), middle(of[sample].at, of[sample + 1].at));
+  if (off <= tolerance + edge.tolerance) return false;
+  problem.kind = FaceProblem::Kind::EdgeOff;
+  problem.use = use, problem.sample = sample;
+  return true;
+}
+
 /// Adds points inside until triangles of the band are near the surface.
-bool FaceMesher::State::refineBand() {
+FaceProblem FaceMesher::State::refineBand() {
+  FaceProblem ended, off;
+  ended.kind = FaceProblem::Kind::Ended;
+  ringOf.clear();
   band.unused.clear(), band.edgeFrom.clear();
   bandAt.resize(mesh->positions.size());
   for (uint32_t v = 0; v < bandAt.size(); ++v) bandAt[v] = scaled(mesh->uvs[v]);
-  if (!findTwins(band.corners, uint32_t(bandAt.size()), *work, band.twins)) return false;
+  if (!findTwins(band.corners, uint32_t(bandAt.size()), *work, band.twins)) return ended;
   if (density->isFlat()) {
     std::fill(bandOff.begin(), bandOff.end(), 0);
     improveAngles();
-    return true;
+    return {};
   }
   const auto at = [&](uint32_t v) -> Vec3 { return mesh->positions[v]; };
   known = band.corners;  // corners of the triangles whose deviation is known
   for (size_t t = 0; t < bandOff.size(); ++t)
     if (bandOff[t] > tolerance) known[3 * t] = kNone;
-  const size_t most = 64 + 4 * bandAt.size();
+  const size_t mostVertices = 64 + 4 * bandAt.size();
   const double quick = 0.25 * tolerance;
   struct Spot {
     uint32_t half;  // of the triangle, or of the edge
@@ -703,9 +736,9 @@ bool FaceMesher::State::refineBand() {
       if (!isNew[t]) continue;
       const uint32_t* c = &band.corners[3 * t];
       Spot worst{kNone, {c[0], c[1], c[2]}, false, tolerance};
-      double off = 0;
+      double most = 0;
       const auto consider = [&](uint32_t half, bool onEdge, double here) {
-        off = std::max(off, here);
+        most = std::max(most, here);
         if (here > worst.off) worst.half = half, worst.onEdge = onEdge, worst.off = here;
       };
       double bound = 0;
@@ -725,14 +758,18 @@ bool FaceMesher::State::refineBand() {
         const Vec3 centroid = (1.0 / 3) * (at(c[0]) + at(c[1]) + at(c[2]));
         consider(3 * t, false, deviationAt(uv, centroid));
       }
-      bandOff[t] = off;
-      if (worst.half != kNone)
-        spots.push_back(worst);
-      else
+      bandOff[t] = most;
+      if (worst.half == kNone) {
         std::copy(c, c + 3, &known[3 * t]);
+        continue;
+      }
+      spots.push_back(worst);
+      // Points inside are of no use where it is the edge that is off.
+      for (uint32_t k = 0; k < 3 && !worst.onEdge; ++k)
+        if (band.twins[3 * t + k] == kNone && edgeIsOff(c[k], c[(k + 1) % 3], off)) return off;
     }
-    if (spots.empty() || bandAt.size() > most || round + 1 == kMostRounds) break;
-    if (!work->tick(400 * spots.size() + 300 * triangles)) return false;
+    if (spots.empty() || bandAt.size() > mostVertices || round + 1 == kMostRounds) break;
+    if (!work->tick(400 * spots.size() + 300 * triangles)) return ended;
     for (const Spot& spot : spots) {
       // What an earlier insertion of the round has changed is looked at again in the next one.
       const uint32_t t = spot.half / 3;
@@ -768,8 +805,8 @@ bool FaceMesher::State::refineBand() {
     }
   }
   improveAngles();
-  for (const double off : bandOff) mesh->deviation = std::max(mesh->deviation, off);
-  return work->going();
+  for (const double here : bandOff) mesh->deviation = std::max(mesh->deviation, here);
+  return work->going() ? FaceProblem{} : ended;
 }
 
 /// Flips edges of the band where the least angle of both triangles in space becomes larger, and the new edge is near the
@@ -872,7 +909,8 @@ FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& 
     problem = {};
     if (!s.updates || !s.patchBand()) problem = s.triangulateBand();
     if (problem.kind == FaceProblem::Kind::None) {
-      if (s.refineBand()) s.finish();
+      problem = s.refineBand();
+      if (problem.kind == FaceProblem::Kind::None) s.finish();
       if (!work.going()) problem.kind = FaceProblem::Kind::Ended;
     }
   }
