@@ -26,6 +26,7 @@ LineTree::LineTree(std::vector<Column> columns, std::vector<double> breaks)
     if (column.form > 0 || column.turn > 0) isFlat_ = false;
   for (size_t i = 0; i + 1 < breaks.size(); ++i) add(breaks[i], breaks[i + 1]);
   roots_ = uint32_t(nodes_.size());
+  for (size_t i = 1; i + 1 < breaks.size(); ++i) creases_.push_back(breaks[i]);
 }
 
 uint32_t LineTree::add(double a, double b) {

@@ -55,6 +55,8 @@ class LineTree {
   double error(uint32_t node) const { return nodes_[node].error; }
   double twist(uint32_t node) const { return nodes_[node].twist; }
   bool isFlat() const { return isFlat_; }
+  /// The breaks between the ends.
+  const std::vector<double>& creases() const { return creases_; }
 
  private:
   struct Node {
@@ -69,6 +71,7 @@ class LineTree {
   void refine(F&& isHalved, Choice& choice);
 
   std::vector<Column> columns_;
+  std::vector<double> creases_;
   std::vector<uint32_t> open_;  // of one call
   std::vector<Node> nodes_;
   uint32_t roots_ = 0;

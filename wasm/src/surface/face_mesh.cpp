@@ -17,7 +17,9 @@ namespace {
 
 /// Corners of one vertex within this share of the domain are one.
 constexpr double kSameCorner = 1e-6;
-constexpr int kMostRefinings = 8, kMostRounds = 16;
+constexpr int kMostRefinings = 8, kMostRounds = 64;
+/// An edge that crosses a crease nearer to one of its ends than this, as a share of it, ends there.
+constexpr double kNearEnd = 1e-3;
 /// Shorter intervals of an edge, as a share of it, are not halved because its surface is off.
 constexpr double kShortInterval = 1e-8;
 constexpr int kMostFlipRounds = 3;
@@ -147,6 +149,7 @@ struct FaceMesher::State {
   FaceProblem refineBand();
   bool edgeIsOff(uint32_t from, uint32_t to, FaceProblem& problem);
   void improveAngles();
+  Point2 splitOf(uint32_t a, uint32_t b, double& share) const;
   double deviationAt(Point2 uv, Vec3 at) const;
   uint32_t addVertex(Point2 uv, Vec3 at, Vec3 normal, FaceMesh::Role role);
   void finish();
@@ -697,6 +700,22 @@ bool FaceMesher::State::edgeIsOff(uint32_t from, uint32_t to, FaceProblem& probl
   return true;
 }
 
+/// Where an edge of the band is to be looked at and divided: where it crosses a crease, or in the middle.
+///   share  out: of the way from a to b
+Point2 FaceMesher::State::splitOf(uint32_t a, uint32_t b, double& share) const {
+  const Point2 p = mesh->uvs[a], q = mesh->uvs[b];
+  const auto crosses = [&](double from, double to, double crease) {
+    share = (crease - from) / (to - from);
+    return share > kNearEnd && share < 1 - kNearEnd;
+  };
+  for (const double crease : density->u.creases())
+    if (p.x != q.x && crosses(p.x, q.x, crease)) return {crease, p.y + share * (q.y - p.y)};
+  for (const double crease : density->v.creases())
+    if (p.y != q.y && crosses(p.y, q.y, crease)) return {p.x + share * (q.x - p.x), crease};
+  share = 0.5;
+  return unscaled(middle(bandAt[a], bandAt[b]));
+}
+
 /// Adds points inside until triangles of the band are near the surface.
 FaceProblem FaceMesher::State::refineBand() {
   FaceProblem ended, off;
@@ -748,8 +767,9 @@ FaceProblem FaceMesher::State::refineBand() {
         const double edge = density->bound(mesh->uvs[a], mesh->uvs[b]);
         bound = std::max(bound, edge);
         if (twin == kNone || (twin < h && isNew[twin / 3]) || edge < quick) continue;
-        const Point2 uv = unscaled(middle(bandAt[a], bandAt[b]));
-        consider(h, true, deviationAt(uv, middle(at(a), at(b))));
+        double share;
+        const Point2 uv = splitOf(a, b, share);
+        consider(h, true, deviationAt(uv, at(a) + share * (at(b) - at(a))));
       }
       const auto pole = [&](int k) { return mesh->poles[c[k]]; };
       if (bound >= quick && pole(0) != pole(1) && pole(1) != pole(2) && pole(2) != pole(0)) {
