@@ -71,6 +71,7 @@ void FaceMesh::clear() {
   positions.clear(), normals.clear(), uvs.clear(), roles.clear(), unused.clear();
   triangles.clear(), strips.clear(), stripStarts.clear(), useVertices.clear(), useStarts.clear();
   us.clear(), vs.clear(), gridStrips.clear(), poles.clear(), band.clear(), bandOff.clear();
+  bandTwins.clear(), bandLinks.bits.clear();
   border.clear();
   deviation = 0;
 }
@@ -99,11 +100,11 @@ struct FaceMesher::State {
   std::vector<Vec3> loopAt;
   // For the triangulators.
   std::vector<double> xy, islandXy;
-  std::vector<uint32_t> starts, vertices, bandTwins, bandStrips, bandStripStarts, bandCorners;
+  std::vector<uint32_t> starts, vertices, bandStrips, bandStripStarts, allTriangles, changed;
   std::vector<uint32_t> bandFound;
   std::vector<double> middleUs, middleVs;
   std::vector<uint32_t> known, opposite;
-  std::vector<uint8_t> isNew;
+  std::vector<uint8_t> isNew, isFresh;
 
   // Of the face at hand.
   uint32_t face = 0;
@@ -126,6 +127,9 @@ struct FaceMesher::State {
   TriangleMesh band;
   std::vector<double> bandOff;
   std::vector<Point2> bandAt;
+  // Of a band that was patched: the triangles that stay, as they were, and their strips.
+  std::vector<uint32_t> oldCorners;
+  StripLinks bandLinks;
   std::vector<uint32_t> quadStrips, quadStarts, quadTriangles;
 
   Point2 scaled(Point2 uv) const {
@@ -152,6 +156,7 @@ struct FaceMesher::State {
   Point2 splitOf(uint32_t a, uint32_t b, double& share) const;
   double deviationAt(Point2 uv, Vec3 at) const;
   uint32_t addVertex(Point2 uv, Vec3 at, Vec3 normal, FaceMesh::Role role);
+  void linkBand();
   void finish();
 };
 
@@ -563,6 +568,7 @@ FaceProblem FaceMesher::State::triangulateBand() {
   band.corners.clear();
   for (const uint32_t v : bandFound) band.corners.push_back(vertices[v]);
   bandOff.assign(band.corners.size() / 3, Sampling::kNoLimit);
+  oldCorners.clear();
   return {};
 }
 
@@ -665,13 +671,20 @@ bool FaceMesher::State::patchBand() {
   size_t kept = 0;
   std::vector<uint8_t> stays;
   band.corners = mesh->band;
-  if (!patch.run({bandAt, border, islands, isGone, changed}, triangulator, *work, band.corners,
-                 kept, stays))
+  if (!patch.run({bandAt, border, islands, isGone, changed}, triangulator, *work, mesh->bandTwins,
+                 band.corners, kept, stays))
     return false;
   bandOff.clear();
   for (size_t t = 0; t < stays.size(); ++t)
     if (stays[t]) bandOff.push_back(mesh->bandOff[t]);
   bandOff.resize(band.corners.size() / 3, Sampling::kNoLimit);
+  // Strips of what stays, in their new places.
+  bandLinks.bits.clear(), oldCorners.clear();
+  for (size_t t = 0; t < stays.size(); ++t) {
+    if (!stays[t]) continue;
+    bandLinks.bits.push_back(mesh->bandLinks.bits[t]);
+    oldCorners.insert(oldCorners.end(), &mesh->band[3 * t], &mesh->band[3 * t] + 3);
+  }
   return true;
 }
 
@@ -725,6 +738,8 @@ FaceProblem FaceMesher::State::refineBand() {
   bandAt.resize(mesh->positions.size());
   for (uint32_t v = 0; v < bandAt.size(); ++v) bandAt[v] = scaled(mesh->uvs[v]);
   if (!findTwins(band.corners, uint32_t(bandAt.size()), *work, band.twins)) return ended;
+  isFresh.resize(bandOff.size());
+  for (size_t t = 0; t < bandOff.size(); ++t) isFresh[t] = bandOff[t] == Sampling::kNoLimit;
   if (density->isFlat()) {
     std::fill(bandOff.begin(), bandOff.end(), 0);
     improveAngles();
@@ -848,6 +863,9 @@ void FaceMesher::State::improveAngles() {
     for (uint32_t h = 0; h < band.corners.size(); ++h) {
       const uint32_t g = band.twins[h];
       if (g == kNone || g < h) continue;
+      // What stays was looked at before.
+      const auto stays = [&](uint32_t t) { return t < isFresh.size() && !isFresh[t]; };
+      if (stays(h / 3) && stays(g / 3)) continue;
       const uint32_t a = band.from(h), b = band.to(h), c = band.apex(h), d = band.apex(g);
       const auto pole = [&](uint32_t v) { return mesh->poles[v] != v; };
       if (pole(a) || pole(b) || pole(c) || pole(d)) continue;
@@ -872,10 +890,37 @@ void FaceMesher::State::improveAngles() {
   }
 }
 
+/// Strips of the band: all anew, or in an update those of triangles that have changed, joined to what stays.
+void FaceMesher::State::linkBand() {
+  if (oldCorners.empty()) {
+    linkStrips(band.twins, *work, bandLinks);
+    return;
+  }
+  const uint32_t count = band.triangleCount();
+  std::vector<uint8_t>& bits = bandLinks.bits;
+  bits.resize(count, 0);
+  isNew.assign(count, 1);
+  for (uint32_t t = 0; 3 * t < oldCorners.size(); ++t)
+    isNew[t] = !std::equal(&oldCorners[3 * t], &oldCorners[3 * t] + 3, &band.corners[3 * t]);
+  changed.clear();
+  for (uint32_t t = 0; t < count; ++t) {
+    if (isNew[t]) bits[t] = 0;
+    bool isCut = isNew[t] != 0;
+    for (uint32_t h = 3 * t; h < 3 * t + 3 && !isNew[t]; ++h) {
+      if (!bandLinks.linked(h)) continue;
+      const uint32_t g = band.twins[h];
+      if (g != kNone && !isNew[g / 3]) continue;
+      bits[t] &= uint8_t(~(1u << (h % 3)));
+      isCut = true;
+    }
+    if (isCut) changed.push_back(t);
+  }
+  joinStrips(band.twins, changed, bandLinks, [](uint32_t) { return true; });
+}
+
 /// Triangles and strips of the whole face, on its own side, and what the next update begins with.
 void FaceMesher::State::finish() {
   mesh->us = us, mesh->vs = vs, mesh->gridStrips = gridStrips;
-  mesh->band = band.corners, mesh->bandOff = bandOff;
   for (const uint32_t v : rings.vertex) mesh->border.push_back(v);
   for (const uint32_t name : trace.border) mesh->border.push_back(gridVertex[name]);
   for (const uint32_t name : trace.islands) mesh->border.push_back(gridVertex[name]);
@@ -886,23 +931,26 @@ void FaceMesher::State::finish() {
     mesh->roles[v] = FaceMesh::Role::None;
     mesh->unused.push_back(v);
   }
-  std::vector<uint32_t>& corners = bandCorners;
-  corners.clear();
-  for (uint32_t t = 0; t < band.triangleCount(); ++t) {
+  std::vector<uint32_t>&strips = bandStrips, &starts = bandStripStarts;
+  strips.clear(), starts.clear();
+  linkBand();
+  const uint32_t count = band.triangleCount();
+  allTriangles.resize(count);
+  for (uint32_t t = 0; t < count; ++t) allTriangles[t] = t;
+  writeStrips(band.corners, band.twins, bandLinks, allTriangles, *work, strips, starts);
+  for (uint32_t& v : strips) v = mesh->poles[v];
+  mesh->triangles = quadTriangles;
+  for (uint32_t t = 0; t < count; ++t) {
     const uint32_t a = mesh->poles[band.corners[3 * t]], b = mesh->poles[band.corners[3 * t + 1]],
                    c = mesh->poles[band.corners[3 * t + 2]];
-    if (a != b && b != c && c != a) corners.insert(corners.end(), {a, b, c});
+    if (a != b && b != c && c != a) mesh->triangles.insert(mesh->triangles.end(), {a, b, c});
   }
-  std::vector<uint32_t>&twins = bandTwins, &strips = bandStrips, &starts = bandStripStarts;
-  strips.clear(), starts.clear();
-  findTwins(corners, uint32_t(mesh->positions.size()), *work, twins);
-  makeStrips(corners, twins, *work, strips, starts);
-  mesh->triangles = quadTriangles;
-  mesh->triangles.insert(mesh->triangles.end(), corners.begin(), corners.end());
   mesh->strips = quadStrips, mesh->stripStarts = quadStarts;
   const uint32_t first = uint32_t(mesh->strips.size());
   mesh->strips.insert(mesh->strips.end(), strips.begin(), strips.end());
   for (size_t i = 1; i < starts.size(); ++i) mesh->stripStarts.push_back(first + starts[i]);
+  mesh->band.swap(band.corners), mesh->bandTwins.swap(band.twins);
+  mesh->bandOff.swap(bandOff), mesh->bandLinks.bits.swap(bandLinks.bits);
   if (model.faces[face].isReversed) turnRound(*mesh);
 }
 

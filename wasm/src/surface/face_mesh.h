@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/work.h"
+#include "polygon/strips/strips.h"
 #include "surface/density.h"
 #include "surface/edge_tree.h"
 #include "surface/model.h"
@@ -37,9 +38,11 @@ struct FaceMesh {
   };
   std::vector<Strip> gridStrips;
   // Corners of the polygon that are one vertex in space, at a pole, are several here; `pole` names the vertex.
-  std::vector<uint32_t> poles;   // [vertices] itself, or that vertex
-  std::vector<uint32_t> band;    // [3b] triangles between grid and trimming curves
-  std::vector<double> bandOff;   // [b] their largest deviation
+  std::vector<uint32_t> poles;      // [vertices] itself, or that vertex
+  std::vector<uint32_t> band;       // [3b] triangles between grid and trimming curves
+  std::vector<double> bandOff;      // [b] their largest deviation
+  std::vector<uint32_t> bandTwins;  // [3b]
+  StripLinks bandLinks;
   std::vector<uint32_t> border;  // vertices that are on the band's border or islands in it
 
   /// Empties it; its memory stays for the next run.
