@@ -73,7 +73,7 @@ void FaceMesh::clear() {
   us.clear(), vs.clear(), gridStrips.clear(), poles.clear(), band.clear(), bandOff.clear();
   bandTwins.clear(), bandLinks.bits.clear();
   border.clear();
-  deviation = 0;
+  deviation = excess = 0;
 }
 
 struct FaceMesher::State {
@@ -115,7 +115,7 @@ struct FaceMesher::State {
   Point2 origin{}, scale{1, 1};
   FaceMesh* mesh = nullptr;
   Density* density = nullptr;
-  double tolerance = 0;
+  Allowance allowance;
   bool updates = false;
   std::vector<double> us, vs, localUs, localVs, gridAt, gridNormals, centers, centerNormals;
   std::vector<uint8_t> isNewU, isNewV;  // [cells] whether the interval was none before
@@ -155,6 +155,7 @@ struct FaceMesher::State {
   void improveAngles();
   Point2 splitOf(uint32_t a, uint32_t b, double& share) const;
   double deviationAt(Point2 uv, Vec3 at) const;
+  double allowedIn(size_t triangle) const;
   uint32_t addVertex(Point2 uv, Vec3 at, Vec3 normal, FaceMesh::Role role);
   void linkBand();
   void finish();
@@ -359,6 +360,13 @@ double FaceMesher::State::deviationAt(Point2 uv, Vec3 at) const {
   return size > 0 ? std::fabs(dot(d, n)) / size : length(d);
 }
 
+/// The tolerance in the middle of a triangle of the band.
+double FaceMesher::State::allowedIn(size_t triangle) const {
+  const uint32_t* c = &band.corners[3 * triangle];
+  const Point2 a = mesh->uvs[c[0]], b = mesh->uvs[c[1]], d = mesh->uvs[c[2]];
+  return allowance.at({(a.x + b.x + d.x) / 3, (a.y + b.y + d.y) / 3});
+}
+
 bool FaceMesher::State::layOut(const Density::Lines& lines) {
   density->u.lines(lines.u, us), density->v.lines(lines.v, vs);
   localUs.clear(), localVs.clear();
@@ -380,7 +388,7 @@ bool FaceMesher::State::layOut(const Density::Lines& lines) {
   gridStrips.assign(us.size() - 1, {false, 0});
   findNew(mesh->us, us, isNewU, [&](size_t i, size_t k) {
     gridStrips[i] = mesh->gridStrips[k];
-    if (gridStrips[i].off > tolerance) isNewU[i] = 1;
+    if (gridStrips[i].off > allowance.betweenU(us[i], us[i + 1])) isNewU[i] = 1;
   });
   findNew(mesh->vs, vs, isNewV, [](size_t, size_t) {});
   return true;
@@ -390,6 +398,7 @@ bool FaceMesher::State::layOut(const Density::Lines& lines) {
 void FaceMesher::State::measureCells(const Density::Lines& lines, bool& isRefined) {
   const size_t nu = us.size(), nv = vs.size();
   isRefined = false;
+  mesh->excess = 0;
   halvedU.assign(nu - 1, 0), halvedV.assign(nv - 1, 0);
   if (trace.runs.empty()) return;
   const auto at = [](const std::vector<double>& of, size_t i) {
@@ -439,9 +448,11 @@ void FaceMesher::State::measureCells(const Density::Lines& lines, bool& isRefine
     });
     if (isNewU[i]) strip = {most[1] < most[0], 0};
     strip.off = std::max(strip.off, most[strip.rises]);
-    if (most[strip.rises] > tolerance) {
+    if (most[strip.rises] > allowance.betweenU(us[i], us[i + 1])) {
       each([&](uint32_t j, const double(&off)[2]) {
-        if (off[strip.rises] <= tolerance) return;
+        const double allowed = allowance.at({middleUs[i], middleVs[j]});
+        mesh->excess = std::max(mesh->excess, off[strip.rises] / allowed);
+        if (off[strip.rises] <= allowed) return;
         const uint32_t nodeU = lines.u.nodes[i], nodeV = lines.v.nodes[j];
         const double eu = density->u.error(nodeU), ev = density->v.error(nodeV);
         const bool alongU =
@@ -707,7 +718,7 @@ bool FaceMesher::State::edgeIsOff(uint32_t from, uint32_t to, FaceProblem& probl
   const double t = 0.5 * (of[sample].t + of[sample + 1].t);
   const double off =
       deviationAt(model.uses[use].curve.at(t), middle(of[sample].at, of[sample + 1].at));
-  if (off <= tolerance + edge.tolerance) return false;
+  if (off <= allowance.at(model.uses[use].curve.at(t)) + edge.tolerance) return false;
   problem.kind = FaceProblem::Kind::EdgeOff;
   problem.use = use, problem.sample = sample;
   return true;
@@ -748,9 +759,8 @@ FaceProblem FaceMesher::State::refineBand() {
   const auto at = [&](uint32_t v) -> Vec3 { return mesh->positions[v]; };
   known = band.corners;  // corners of the triangles whose deviation is known
   for (size_t t = 0; t < bandOff.size(); ++t)
-    if (bandOff[t] > tolerance) known[3 * t] = kNone;
+    if (bandOff[t] > allowance.least() && bandOff[t] > allowedIn(t)) known[3 * t] = kNone;
   const size_t mostVertices = 64 + 4 * bandAt.size();
-  const double quick = 0.25 * tolerance;
   struct Spot {
     uint32_t half;  // of the triangle, or of the edge
     uint32_t corners[3];
@@ -769,7 +779,8 @@ FaceProblem FaceMesher::State::refineBand() {
     for (uint32_t t = 0; t < triangles; ++t) {
       if (!isNew[t]) continue;
       const uint32_t* c = &band.corners[3 * t];
-      Spot worst{kNone, {c[0], c[1], c[2]}, false, tolerance};
+      const double allowed = allowedIn(t), quick = 0.25 * allowed;
+      Spot worst{kNone, {c[0], c[1], c[2]}, false, allowed};
       double most = 0;
       const auto consider = [&](uint32_t half, bool onEdge, double here) {
         most = std::max(most, here);
@@ -840,7 +851,11 @@ FaceProblem FaceMesher::State::refineBand() {
     }
   }
   improveAngles();
-  for (const double here : bandOff) mesh->deviation = std::max(mesh->deviation, here);
+  for (size_t t = 0; t < bandOff.size(); ++t) {
+    mesh->deviation = std::max(mesh->deviation, bandOff[t]);
+    if (bandOff[t] > allowance.least())
+      mesh->excess = std::max(mesh->excess, bandOff[t] / allowedIn(t));
+  }
   return work->going() ? FaceProblem{} : ended;
 }
 
@@ -876,10 +891,11 @@ void FaceMesher::State::improveAngles() {
       if (!(turn(bandAt[c], bandAt[d], bandAt[b]) > 0 && turn(bandAt[d], bandAt[c], bandAt[a]) > 0))
         continue;
       double off = std::max(bandOff[h / 3], bandOff[g / 3]);
-      if (density->bound(mesh->uvs[c], mesh->uvs[d]) >= 0.25 * tolerance) {
-        const Point2 uv = unscaled(middle(bandAt[c], bandAt[d]));
+      const Point2 uv = unscaled(middle(bandAt[c], bandAt[d]));
+      const double allowed = allowance.at(uv);
+      if (density->bound(mesh->uvs[c], mesh->uvs[d]) >= 0.25 * allowed) {
         const double here = deviationAt(uv, middle(at(c), at(d)));
-        if (here > tolerance) continue;
+        if (here > allowed) continue;
         off = std::max(off, here);
       }
       band.flip(h);
@@ -955,14 +971,14 @@ void FaceMesher::State::finish() {
 }
 
 FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& density,
-                            Density::Lines& lines, double tolerance, bool updates, Work& work,
-                            FaceMesh& mesh) {
+                            Density::Lines& lines, const Allowance& allowance, bool updates,
+                            Work& work, FaceMesh& mesh) {
   State& s = *state_;
   s.work = &work;
-  s.density = &density, s.tolerance = tolerance;
+  s.density = &density, s.allowance = allowance;
   s.updates = updates && !mesh.band.empty();
   s.begin(face, samples, mesh);
-  mesh.deviation = 0;
+  mesh.deviation = mesh.excess = 0;
   const auto positive = [](double x) { return x > 0 && std::isfinite(x) ? x : 1; };
   std::vector<double> us, vs;
   density.u.lines(lines.u, us), density.v.lines(lines.v, vs);

@@ -29,6 +29,7 @@ struct FaceMesh {
   // For each use, vertices from where the loop enters it to where it leaves it.
   std::vector<uint32_t> useVertices, useStarts;
   double deviation = 0;  // largest measured
+  double excess = 0;     // largest as a share of what is allowed
 
   // What the next update begins with.
   std::vector<double> us, vs;
@@ -73,10 +74,10 @@ class FaceMesher {
   ~FaceMesher();
 
   /// Meshes a face. `lines` may be refined where the grid is measured to be off.
-  ///   tolerance  most distance of mesh and surface
+  ///   allowance  most distance of mesh and surface
   ///   mesh       with `updates` that of an earlier run, of which whatever still fits stays; after a problem it is empty
   FaceProblem run(uint32_t face, const EdgeSamples& samples, Density& density,
-                  Density::Lines& lines, double tolerance, bool updates, Work& work,
+                  Density::Lines& lines, const Allowance& allowance, bool updates, Work& work,
                   FaceMesh& mesh);
 
   /// Only whether the rings of a face are those of a polygon.
