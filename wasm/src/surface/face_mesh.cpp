@@ -9,7 +9,6 @@
 #include "polygon/triangulate.h"
 #include "surface/band_patch.h"
 #include "surface/trace.h"
-#include "surface/vertex_table.h"
 #include "triangles/triangle_mesh.h"
 
 namespace sf {
@@ -72,7 +71,7 @@ void FaceMesh::clear() {
   triangles.clear(), strips.clear(), stripStarts.clear(), useVertices.clear(), useStarts.clear();
   us.clear(), vs.clear(), gridStrips.clear(), poles.clear(), band.clear(), bandOff.clear();
   bandTwins.clear(), bandLinks.bits.clear();
-  border.clear();
+  border.clear(), usePlaces.clear(), useTs.clear(), gridVertices.clear();
   deviation = excess = 0;
 }
 
@@ -87,15 +86,18 @@ struct FaceMesher::State {
   PlaneSweep sweep;
   LinkedPolygon linked;
   Visibility seen;
-  VertexTable table;
+  std::vector<std::vector<Point2>>
+      knownUvs;  // [uses][intervals of the edge] where each begins, or NaN
   // [vertices of the model] where each was met last.
   struct Corner {
-    uint32_t face;
+    uint32_t run;  // of this mesher
     Point2 uv;
+    uint32_t vertex;
   };
   std::vector<Corner> corners;
   // Of one loop.
   std::vector<Point2> loopUvs;
+  std::vector<double> loopTs;
   std::vector<uint32_t> loopPlaces, loopUses, loopNumbers, loopFirsts, loopVertices;
   std::vector<Vec3> loopAt;
   // For the triangulators.
@@ -122,8 +124,11 @@ struct FaceMesher::State {
   std::vector<FaceMesh::Strip> gridStrips;
   std::vector<uint32_t> gridVertex;
   std::vector<uint8_t> halvedU, halvedV;
-  std::vector<uint32_t> oldUseVertices, oldUseStarts, oldBorder;
-  std::vector<uint8_t> isMet;  // [vertices] in this run
+  std::vector<uint32_t> oldUseVertices, oldUseStarts, oldUsePlaces, oldBorder, oldGrid;
+  std::vector<double> oldUseTs, oldUs, oldVs;
+  std::vector<uint32_t> oldLineU, oldLineV;  // [lines] their number before, or kNone
+  std::vector<uint8_t> isMet;                // [vertices] on a ring in this run
+  uint32_t runs = 0;
   TriangleMesh band;
   std::vector<double> bandOff;
   std::vector<Point2> bandAt;
@@ -137,7 +142,8 @@ struct FaceMesher::State {
   }
   Point2 unscaled(Point2 p) const { return {origin.x + p.x / scale.x, origin.y + p.y / scale.y}; }
 
-  Point2 sharedCorner(uint32_t vertex, Point2 uv);
+  Corner& cornerOf(uint32_t vertex, Point2 uv);
+  Point2 placeOf(uint32_t use, const EdgeSample& sample);
   void begin(uint32_t f, const EdgeSamples& all, FaceMesh& out);
   FaceProblem problemOf(const Outcome& outcome) const;
   FaceProblem checkRings();
@@ -179,17 +185,29 @@ uint32_t FaceMesher::State::addVertex(Point2 uv, Vec3 at, Vec3 normal, FaceMesh:
   return v;
 }
 
-/// The place of a corner in the domain: that of an earlier one of the same vertex, if they are nearly at one place.
-Point2 FaceMesher::State::sharedCorner(uint32_t vertex, Point2 uv) {
-  if (corners.size() < model.vertices) corners.resize(model.vertices, {kNone, {}});
+/// A corner of the face: where one of the same vertex was met before in this run, if they are nearly at one place.
+FaceMesher::State::Corner& FaceMesher::State::cornerOf(uint32_t vertex, Point2 uv) {
+  if (corners.size() < model.vertices) corners.resize(model.vertices, {0, {}, kNone});
   Corner& corner = corners[vertex];
   const BezierSpans &u = surface->u(), &v = surface->v();
   const double nearU = kSameCorner * (u.breaks()[u.count()] - u.breaks()[0]),
                nearV = kSameCorner * (v.breaks()[v.count()] - v.breaks()[0]);
-  const bool isSame = corner.face == face && std::fabs(corner.uv.x - uv.x) <= nearU &&
+  const bool isSame = corner.run == runs && std::fabs(corner.uv.x - uv.x) <= nearU &&
                       std::fabs(corner.uv.y - uv.y) <= nearV;
-  if (!isSame) corner = {face, uv};
-  return corner.uv;
+  if (!isSame) corner = {runs, uv, kNone};
+  return corner;
+}
+
+/// The place of a sample in the domain of a use.
+Point2 FaceMesher::State::placeOf(uint32_t use, const EdgeSample& sample) {
+  if (sample.node == kNone) return model.uses[use].curve.at(sample.t);
+  if (knownUvs.size() < model.uses.size()) knownUvs.resize(model.uses.size());
+  std::vector<Point2>& known = knownUvs[use];
+  if (known.size() <= sample.node) known.resize(sample.node + 1, {std::nan(""), 0});
+  // The first half of an interval begins where that does, so the parameter is one with the node.
+  Point2& uv = known[sample.node];
+  if (std::isnan(uv.x)) uv = model.uses[use].curve.at(sample.t);
+  return uv;
 }
 
 /// Lays out the rings, and their vertices in the mesh.
@@ -198,31 +216,40 @@ void FaceMesher::State::begin(uint32_t f, const EdgeSamples& all, FaceMesh& out)
   if (!updates) out.clear();
   surface = model.faces[f].surface.get();
   isMet.assign(out.positions.size(), 0);
-  table.reset(out.positions.size());
-  for (uint32_t v = 0; v < out.positions.size(); ++v)
-    if (out.roles[v] != FaceMesh::Role::None) table.add(v, out.uvs);
+  ++runs;
   oldUseVertices.swap(out.useVertices), oldUseStarts.swap(out.useStarts);
-  oldBorder.swap(out.border);
-  out.useVertices.clear(), out.useStarts.clear(), out.border.clear();
+  oldUsePlaces.swap(out.usePlaces), oldUseTs.swap(out.useTs);
+  oldBorder.swap(out.border), oldGrid.swap(out.gridVertices);
+  oldUs = out.us, oldVs = out.vs;
+  out.useVertices.clear(), out.useStarts.clear(), out.usePlaces.clear(), out.useTs.clear();
+  out.border.clear();
+  const uint32_t firstUse = model.loops[model.faces[f].firstLoop].firstUse;
   rings.clear();
   rings.starts.push_back(0);
   std::vector<Point2>& uvs = loopUvs;
   std::vector<uint32_t>&places = loopPlaces, &uses = loopUses, &numbers = loopNumbers;
+  std::vector<double>& ts = loopTs;
   std::vector<uint32_t>&firsts = loopFirsts, &vertexOf = loopVertices;
   std::vector<Vec3>& at = loopAt;
   out.useStarts.push_back(0);
   for (uint32_t l = model.faces[f].firstLoop; l < model.faces[f].endLoop; ++l) {
     const ModelLoop& loop = model.loops[l];
     uvs.clear(), places.clear(), uses.clear(), numbers.clear(), at.clear(), firsts.clear();
+    vertexOf.clear(), ts.clear();
     for (uint32_t u = loop.firstUse; u < loop.endUse; ++u) {
       const ModelUse& use = model.uses[u];
       const ModelEdge& edge = model.edges[use.edge];
       const std::vector<EdgeSample>& of = all.of[use.edge];
       const uint32_t count = uint32_t(of.size());
       firsts.push_back(uint32_t(uvs.size()));
+      const size_t inFace = u - firstUse;
+      size_t known = 0, knownEnd = 0;
+      if (updates && inFace + 1 < oldUseStarts.size())
+        known = oldUseStarts[inFace], knownEnd = oldUseStarts[inFace + 1];
       for (uint32_t k = 0; k + 1 < count; ++k) {
+        Corner* corner = nullptr;
         const uint32_t s = use.isReversed ? count - 1 - k : k;
-        Point2 uv = use.curve.at(of[s].t);
+        Point2 uv = placeOf(u, of[s]);
         uint32_t place = all.firstPlace[use.edge] + s - 1;
         if (k == 0) {
           // Where two uses meet, in the middle between them.
@@ -232,8 +259,23 @@ void FaceMesher::State::begin(uint32_t f, const EdgeSamples& all, FaceMesh& out)
           const Point2 end = before.curve.at(before.isReversed ? edgeBefore.from : edgeBefore.to);
           uv = middle(uv, end);
           place = use.isReversed ? edge.toVertex : edge.fromVertex;
-          uv = sharedCorner(place, uv);
+          corner = &cornerOf(place, uv);
+          uv = corner->uv;
         }
+        uint32_t v = corner ? corner->vertex : kNone;
+        // The vertex of the last run at the same sample.
+        while (known < knownEnd &&
+               (use.isReversed ? oldUseTs[known] > of[s].t : oldUseTs[known] < of[s].t))
+          ++known;
+        if (v == kNone && known < knownEnd && oldUseTs[known] == of[s].t) {
+          v = oldUsePlaces[known];
+          if (!(out.uvs[v] == uv && out.positions[v] == of[s].at)) v = kNone;
+        }
+        if (v == kNone)
+          v = addVertex(uv, of[s].at, surface->normalAt(uv.x, uv.y), FaceMesh::Role::Edge);
+        isMet[v] = 1, out.roles[v] = FaceMesh::Role::Edge;
+        if (corner) corner->vertex = v;
+        vertexOf.push_back(v), ts.push_back(of[s].t);
         uvs.push_back(uv), places.push_back(place), at.push_back(of[s].at);
         uses.push_back(u);
         // The interval after the vertex, as the loop runs.
@@ -247,20 +289,12 @@ void FaceMesher::State::begin(uint32_t f, const EdgeSamples& all, FaceMesh& out)
       area += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
     }
     const bool turns = (area < 0) == loop.isOuter;
-    vertexOf.resize(n);
-    for (uint32_t i = 0; i < n; ++i) {
-      const auto isAt = [&](uint32_t v) { return out.positions[v] == at[i]; };
-      uint32_t v = table.find(uvs[i], out.uvs, isAt);
-      if (v == kNone) {
-        v = addVertex(uvs[i], at[i], surface->normalAt(uvs[i].x, uvs[i].y), FaceMesh::Role::Edge);
-        table.add(v, out.uvs);
-      }
-      vertexOf[i] = v, isMet[v] = 1, out.roles[v] = FaceMesh::Role::Edge;
-      // One vertex at a pole: neighbours at one place are one.
-      out.poles[v] = i > 0 && places[i] == places[i - 1]             ? out.poles[vertexOf[i - 1]]
-                     : i > 0 && i + 1 == n && places[i] == places[0] ? out.poles[vertexOf[0]]
-                                                                     : v;
-    }
+    // One vertex at a pole: neighbours at one place are one.
+    for (uint32_t i = 0; i < n; ++i)
+      out.poles[vertexOf[i]] = i > 0 && places[i] == places[i - 1] ? out.poles[vertexOf[i - 1]]
+                               : i > 0 && i + 1 == n && places[i] == places[0]
+                                   ? out.poles[vertexOf[0]]
+                                   : vertexOf[i];
     for (uint32_t k = 0; k < n; ++k) {
       const uint32_t i = turns ? n - 1 - k : k;
       // Turned round, the segment after a vertex is the one before it.
@@ -274,8 +308,14 @@ void FaceMesher::State::begin(uint32_t f, const EdgeSamples& all, FaceMesh& out)
     rings.loops.push_back(l - model.faces[f].firstLoop);
     for (uint32_t u = 0; u < firsts.size(); ++u) {
       const uint32_t end = u + 1 < firsts.size() ? firsts[u + 1] : n;
-      for (uint32_t i = firsts[u]; i <= end; ++i)
-        mesh->useVertices.push_back(out.poles[vertexOf[i == n ? 0 : i]]);
+      for (uint32_t i = firsts[u]; i <= end; ++i) {
+        const uint32_t v = vertexOf[i == n ? 0 : i];
+        const ModelUse& use = model.uses[loop.firstUse + u];
+        const ModelEdge& edge = model.edges[use.edge];
+        mesh->useVertices.push_back(out.poles[v]);
+        mesh->usePlaces.push_back(v);
+        mesh->useTs.push_back(i < end ? ts[i] : use.isReversed ? edge.from : edge.to);
+      }
       mesh->useStarts.push_back(uint32_t(mesh->useVertices.size()));
     }
   }
@@ -338,6 +378,10 @@ FaceProblem FaceMesher::State::checkRings() {
   return problemOf(outcome);
 }
 
+void FaceMesher::forget(uint32_t use) {
+  if (use < state_->knownUvs.size()) state_->knownUvs[use].clear();
+}
+
 FaceProblem FaceMesher::check(uint32_t face, const EdgeSamples& samples, Work& work) {
   State& s = *state_;
   s.work = &work;
@@ -391,6 +435,15 @@ bool FaceMesher::State::layOut(const Density::Lines& lines) {
     if (gridStrips[i].off > allowance.betweenU(us[i], us[i + 1])) isNewU[i] = 1;
   });
   findNew(mesh->vs, vs, isNewV, [](size_t, size_t) {});
+  const auto findOld = [](const std::vector<double>& before, const std::vector<double>& now,
+                          std::vector<uint32_t>& old) {
+    old.assign(now.size(), kNone);
+    for (size_t i = 0, k = 0; i < now.size(); ++i) {
+      while (k < before.size() && before[k] < now[i]) ++k;
+      if (k < before.size() && before[k] == now[i]) old[i] = uint32_t(k);
+    }
+  };
+  if (updates) findOld(oldUs, us, oldLineU), findOld(oldVs, vs, oldLineV);
   return true;
 }
 
@@ -472,16 +525,11 @@ uint32_t FaceMesher::State::gridVertexAt(uint32_t name) {
   const uint32_t nv = uint32_t(vs.size());
   const Point2 uv{us[name / nv], vs[name % nv]};
   if (updates) {
-    v = table.find(uv, mesh->uvs,
-                   [&](uint32_t k) { return mesh->roles[k] != FaceMesh::Role::Edge; });
-    if (v != kNone) {
-      isMet[v] = 1, mesh->roles[v] = FaceMesh::Role::Grid;
-      return v;
-    }
+    const uint32_t oldU = oldLineU[name / nv], oldV = oldLineV[name % nv];
+    if (oldU != kNone && oldV != kNone) v = oldGrid[oldU * oldVs.size() + oldV];
+    if (v != kNone) return v;
     const TangentPoint p = surface->tangentsAt(uv.x, uv.y);
-    v = addVertex(uv, p.at, surface->normalOf(p, uv.x, uv.y), FaceMesh::Role::Grid);
-    table.add(v, mesh->uvs);
-    return v;
+    return v = addVertex(uv, p.at, surface->normalOf(p, uv.x, uv.y), FaceMesh::Role::Grid);
   }
   const double *p = &gridAt[3 * size_t(name)], *n = &gridNormals[3 * size_t(name)];
   return v = addVertex(uv, {p[0], p[1], p[2]}, {n[0], n[1], n[2]}, FaceMesh::Role::Grid);
@@ -501,7 +549,16 @@ bool FaceMesher::State::meshGrid(Density::Lines& lines) {
     measureCells(lines, isRefined);
     if (!isRefined || k == kMostRefinings) break;
     density->u.halve(halvedU, lines.u), density->v.halve(halvedV, lines.v);
-    if (updates) continue;
+    if (updates) {
+      // What this round has made is there for the next.
+      for (uint32_t name = 0; name < gridVertex.size(); ++name) {
+        const uint32_t oldU = oldLineU[name / vs.size()], oldV = oldLineV[name % vs.size()];
+        if (gridVertex[name] == kNone && oldU != kNone && oldV != kNone)
+          gridVertex[name] = oldGrid[oldU * oldVs.size() + oldV];
+      }
+      oldGrid.swap(gridVertex), oldUs = us, oldVs = vs;
+      continue;
+    }
     mesh->positions.resize(ringVertices), mesh->normals.resize(ringVertices);
     mesh->uvs.resize(ringVertices), mesh->roles.resize(ringVertices);
     mesh->poles.resize(ringVertices), isMet.resize(ringVertices);
@@ -613,10 +670,10 @@ void FaceMesher::State::findChanges(std::vector<Box2>& changed) const {
   // Of a use, from each vertex that stays to the next one that stays, if there are others between.
   const auto at = [&](uint32_t v) { return scaled(mesh->uvs[v]); };
   for (size_t u = 0; u + 1 < oldUseStarts.size(); ++u) {
-    const uint32_t *a = &oldUseVertices[oldUseStarts[u]],
-                   *aEnd = &oldUseVertices[0] + oldUseStarts[u + 1];
-    const uint32_t *b = &mesh->useVertices[mesh->useStarts[u]],
-                   *bEnd = &mesh->useVertices[0] + mesh->useStarts[u + 1];
+    const uint32_t *a = &oldUsePlaces[oldUseStarts[u]],
+                   *aEnd = &oldUsePlaces[0] + oldUseStarts[u + 1];
+    const uint32_t *b = &mesh->usePlaces[mesh->useStarts[u]],
+                   *bEnd = &mesh->usePlaces[0] + mesh->useStarts[u + 1];
     while (a + 1 < aEnd && b + 1 < bEnd) {
       const uint32_t *na = a + 1, *nb = b + 1;
       // Old vertices that are still met are those of the new list, in the same order.
@@ -937,11 +994,14 @@ void FaceMesher::State::linkBand() {
 /// Triangles and strips of the whole face, on its own side, and what the next update begins with.
 void FaceMesher::State::finish() {
   mesh->us = us, mesh->vs = vs, mesh->gridStrips = gridStrips;
+  mesh->gridVertices = gridVertex;
   for (const uint32_t v : rings.vertex) mesh->border.push_back(v);
   for (const uint32_t name : trace.border) mesh->border.push_back(gridVertex[name]);
   for (const uint32_t name : trace.islands) mesh->border.push_back(gridVertex[name]);
   // Numbers of vertices that are no longer there.
   for (const uint32_t v : band.corners) isMet[v] = 1;
+  for (const uint32_t v : gridVertex)
+    if (v != kNone) isMet[v] = 1;
   for (uint32_t v = 0; v < isMet.size() && updates; ++v) {
     if (isMet[v] || mesh->roles[v] == FaceMesh::Role::None) continue;
     mesh->roles[v] = FaceMesh::Role::None;

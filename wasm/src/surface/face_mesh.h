@@ -28,11 +28,15 @@ struct FaceMesh {
   std::vector<uint32_t> strips, stripStarts;
   // For each use, vertices from where the loop enters it to where it leaves it.
   std::vector<uint32_t> useVertices, useStarts;
+  // The same vertices before those at poles were made one, and the parameters of the edges there.
+  std::vector<uint32_t> usePlaces;
+  std::vector<double> useTs;
   double deviation = 0;  // largest measured
   double excess = 0;     // largest as a share of what is allowed
 
   // What the next update begins with.
   std::vector<double> us, vs;
+  std::vector<uint32_t> gridVertices;  // [us vs] or kNone
   struct Strip {
     bool rises;  // which diagonal its quads have: from the lower left, or from the upper left
     double off;  // their largest deviation
@@ -79,6 +83,9 @@ class FaceMesher {
   FaceProblem run(uint32_t face, const EdgeSamples& samples, Density& density,
                   Density::Lines& lines, const Allowance& allowance, bool updates, Work& work,
                   FaceMesh& mesh);
+
+  /// Forgets the places of a use in the domain, when its curve or its edge has become another one.
+  void forget(uint32_t use);
 
   /// Only whether the rings of a face are those of a polygon.
   FaceProblem check(uint32_t face, const EdgeSamples& samples, Work& work);

@@ -466,6 +466,7 @@ bool TrimmedSurfaces::isAlone(uint32_t edge, uint32_t face) const {
 void TrimmedSurfaces::replant(uint32_t face, ArrayView<const uint32_t> edges) {
   for (const uint32_t e : edges) {
     plantTree(e);
+    for (uint32_t i = firstUses_[e]; i < firstUses_[e + 1]; ++i) mesher_->forget(usesOf_[i]);
     for (const int end : {0, 1})
       vertexAt_[end == 0 ? model_.edges[e].fromVertex : model_.edges[e].toVertex] =
           trees_[e]->end(end);
