@@ -241,6 +241,11 @@ Density::Density(const NurbsSurface& surface, Box2 box) : box_(box) {
     for (auto* columns : {&columnsU, &columnsV})
       for (LineTree::Column& c : *columns) c = {c.from, c.to, 0, 0, 0, 0};
   }
+  // Half of a usual span.
+  const auto halfSpan = [](const BezierSpans& spans) {
+    return 0.5 * (spans.breaks()[spans.count()] - spans.breaks()[0]) / spans.count();
+  };
+  farU_ = halfSpan(surface.u()), farV_ = halfSpan(surface.v());
   u = LineTree(std::move(columnsU), breaksIn(creasesOf(surface, true), box.u0, box.u1));
   v = LineTree(std::move(columnsV), breaksIn(creasesOf(surface, false), box.v0, box.v1));
 }

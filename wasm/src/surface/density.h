@@ -106,6 +106,8 @@ class Density {
     const double du = std::fabs(b.x - a.x), dv = std::fabs(b.y - a.y);
     return (du * du * formU_ + 2 * du * dv * twist_ + dv * dv * formV_) / 8;
   }
+  /// Whether two points are so far apart, for the surface's spans, that it may bend to and fro between them.
+  bool isFar(double du, double dv) const { return std::fabs(du) > farU_ || std::fabs(dv) > farV_; }
   /// The box of the places looked at.
   Vec3 least{}, greatest{};
   /// Mean length in space of a unit of u, and of v.
@@ -129,6 +131,7 @@ class Density {
 
   Box2 box_{};
   std::vector<Ball> balls_;  // once they were wanted: of all of it, of its 4 quarters, their 16 ...
+  double farU_ = 0, farV_ = 0;
   double twist_ = 0, formU_ = 0, formV_ = 0, speedU_ = 1, speedV_ = 1;
 };
 

@@ -45,23 +45,23 @@ struct Rings {
   }
 };
 
-/// Turns triangles and strips to the other side.
-void turnRound(FaceMesh& mesh) {
+/// Turns triangles, and strips from one on, to the other side.
+void turnRound(FaceMesh& mesh, size_t firstStrip) {
   for (size_t i = 0; i < mesh.triangles.size(); i += 3)
     std::swap(mesh.triangles[i + 1], mesh.triangles[i + 2]);
   // A strip: backwards if it has an odd number of indices, else with its first one twice.
-  std::vector<uint32_t> turned, starts = {0};
-  for (size_t s = 0; s + 1 < mesh.stripStarts.size(); ++s) {
-    const uint32_t from = mesh.stripStarts[s], to = mesh.stripStarts[s + 1];
+  const std::vector<uint32_t> strips = mesh.strips, starts = mesh.stripStarts;
+  mesh.strips.resize(starts[firstStrip]), mesh.stripStarts.resize(firstStrip + 1);
+  for (size_t s = firstStrip; s + 1 < starts.size(); ++s) {
+    const uint32_t from = starts[s], to = starts[s + 1];
     if ((to - from) % 2 == 1) {
-      for (uint32_t i = to; i > from; --i) turned.push_back(mesh.strips[i - 1]);
+      for (uint32_t i = to; i > from; --i) mesh.strips.push_back(strips[i - 1]);
     } else {
-      turned.push_back(mesh.strips[from]);
-      turned.insert(turned.end(), mesh.strips.begin() + from, mesh.strips.begin() + to);
+      mesh.strips.push_back(strips[from]);
+      mesh.strips.insert(mesh.strips.end(), strips.begin() + from, strips.begin() + to);
     }
-    starts.push_back(uint32_t(turned.size()));
+    mesh.stripStarts.push_back(uint32_t(mesh.strips.size()));
   }
-  mesh.strips.swap(turned), mesh.stripStarts.swap(starts);
 }
 
 }  // namespace
@@ -478,8 +478,21 @@ void FaceMesher::State::measureCells(const Density::Lines& lines, bool& isRefine
     }
     const auto corner = [&](size_t a) { return mesh->positions[gridVertexAt(uint32_t(a))]; };
     const size_t low = i * nv + j, high = low + nv;
-    off[0] = std::fabs(dot(n, middle(corner(high), corner(low + 1)) - m));
-    off[1] = std::fabs(dot(n, middle(corner(low), corner(high + 1)) - m));
+    const Vec3 a = corner(low), b = corner(high), c = corner(low + 1), d = corner(high + 1);
+    off[0] = std::fabs(dot(n, middle(b, c) - m)), off[1] = std::fabs(dot(n, middle(a, d) - m));
+    const double du = us[i + 1] - us[i], dv = vs[j + 1] - vs[j];
+    if (!density->isFar(du, dv)) return;
+    // The middle alone does not tell.
+    for (const double x : {0.25, 0.75})
+      for (const double y : {0.25, 0.75}) {
+        const Point2 uv{us[i] + x * du, vs[j] + y * dv};
+        // On the triangles below and above each diagonal.
+        const Vec3 falling =
+            x + y < 1 ? a + x * (b - a) + y * (c - a) : d + (1 - x) * (c - d) + (1 - y) * (b - d);
+        const Vec3 rising = x > y ? a + x * (b - a) + y * (d - b) : a + y * (c - a) + x * (d - c);
+        off[0] = std::max(off[0], deviationAt(uv, falling));
+        off[1] = std::max(off[1], deviationAt(uv, rising));
+      }
   };
   for (size_t r = 0; r < trace.runs.size();) {
     const uint32_t i = trace.runs[r].strip;
@@ -499,7 +512,12 @@ void FaceMesher::State::measureCells(const Density::Lines& lines, bool& isRefine
     each([&](uint32_t, const double(&off)[2]) {
       most[0] = std::max(most[0], off[0]), most[1] = std::max(most[1], off[1]);
     });
-    if (isNewU[i]) strip = {most[1] < most[0], 0};
+    if (isNewU[i]) {
+      // Of two diagonals that both are near enough, the one whose strips need no index to begin with.
+      const bool easy = model.faces[face].isReversed;
+      const bool isNear = most[easy] <= 0.5 * allowance.betweenU(us[i], us[i + 1]);
+      strip = {isNear ? easy : most[1] < most[0], 0};
+    }
     strip.off = std::max(strip.off, most[strip.rises]);
     if (most[strip.rises] > allowance.betweenU(us[i], us[i + 1])) {
       each([&](uint32_t j, const double(&off)[2]) {
@@ -576,9 +594,12 @@ void FaceMesher::State::writeQuads() {
   for (const CellRun& run : trace.runs) {
     const uint32_t i = run.strip;
     const bool rises = gridStrips[i].rises;
+    // A strip that begins on the left line has diagonals that fall, and counter-clockwise triangles; one that begins on the right
+    // has both the other way, but for its first index twice.
+    if (rises != model.faces[face].isReversed)
+      quadStrips.push_back(gridVertexAt((rises ? i + 1 : i) * nv + run.first));
     for (uint32_t j = run.first; j <= run.end; ++j) {
       const uint32_t a = gridVertexAt(i * nv + j), b = gridVertexAt((i + 1) * nv + j);
-      // A strip that begins on the left line has diagonals that fall.
       quadStrips.push_back(rises ? b : a), quadStrips.push_back(rises ? a : b);
       if (j == run.end) break;
       const uint32_t c = gridVertexAt(i * nv + j + 1), d = gridVertexAt((i + 1) * nv + j + 1);
@@ -772,10 +793,14 @@ bool FaceMesher::State::edgeIsOff(uint32_t from, uint32_t to, FaceProblem& probl
   const std::vector<EdgeSample>& of = samples->of[model.uses[use].edge];
   const ModelEdge& edge = model.edges[model.uses[use].edge];
   if (of[sample + 1].t - of[sample].t < kShortInterval * (edge.to - edge.from)) return false;
-  const double t = 0.5 * (of[sample].t + of[sample + 1].t);
-  const double off =
-      deviationAt(model.uses[use].curve.at(t), middle(of[sample].at, of[sample + 1].at));
-  if (off <= allowance.at(model.uses[use].curve.at(t)) + edge.tolerance) return false;
+  bool isOff = false;
+  for (const double share : {0.25, 0.5, 0.75}) {
+    const Point2 uv =
+        model.uses[use].curve.at(of[sample].t + share * (of[sample + 1].t - of[sample].t));
+    const Vec3 chord = of[sample].at + share * (of[sample + 1].at - of[sample].at);
+    isOff |= deviationAt(uv, chord) > allowance.at(uv) + edge.tolerance;
+  }
+  if (!isOff) return false;
   problem.kind = FaceProblem::Kind::EdgeOff;
   problem.use = use, problem.sample = sample;
   return true;
@@ -859,7 +884,17 @@ FaceProblem FaceMesher::State::refineBand() {
         const Point2 p = bandAt[c[0]], q = bandAt[c[1]], r = bandAt[c[2]];
         const Point2 uv = unscaled({(p.x + q.x + r.x) / 3, (p.y + q.y + r.y) / 3});
         const Vec3 centroid = (1.0 / 3) * (at(c[0]) + at(c[1]) + at(c[2]));
-        consider(3 * t, false, deviationAt(uv, centroid));
+        double inside = deviationAt(uv, centroid);
+        const Point2 a = mesh->uvs[c[0]], b = mesh->uvs[c[1]], d = mesh->uvs[c[2]];
+        const double du = std::max({a.x, b.x, d.x}) - std::min({a.x, b.x, d.x}),
+                     dv = std::max({a.y, b.y, d.y}) - std::min({a.y, b.y, d.y});
+        // The middles alone do not tell: look at those between them and the corners too.
+        for (int k = 0; k < 3 && density->isFar(du, dv); ++k) {
+          const Point2 e = mesh->uvs[c[k]];
+          const Point2 place{0.5 * (uv.x + e.x), 0.5 * (uv.y + e.y)};
+          inside = std::max(inside, deviationAt(place, middle(centroid, at(c[k]))));
+        }
+        consider(3 * t, false, inside);
       }
       bandOff[t] = most;
       if (worst.half == kNone) {
@@ -1027,7 +1062,7 @@ void FaceMesher::State::finish() {
   for (size_t i = 1; i < starts.size(); ++i) mesh->stripStarts.push_back(first + starts[i]);
   mesh->band.swap(band.corners), mesh->bandTwins.swap(band.twins);
   mesh->bandOff.swap(bandOff), mesh->bandLinks.bits.swap(bandLinks.bits);
-  if (model.faces[face].isReversed) turnRound(*mesh);
+  if (model.faces[face].isReversed) turnRound(*mesh, quadStarts.size() - 1);
 }
 
 FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& density,
