@@ -210,10 +210,18 @@ void LoopFiller::choose() {
     Placed& p = loop_[i];
     if (p.isFree || p.isGiven) continue;
     const Point2 shift = p.shifts[best_[i]];
+    std::vector<Point2>& points = p.curve.points;
     const bool isWithin = liesWithin(p, shift);
-    for (Point2& at : p.curve.points) {
-      at = at + shift;
-      if (isWithin) at = {std::clamp(at.x, low.x, high.x), std::clamp(at.y, low.y, high.y)};
+    for (Point2& at : points) at = at + shift;
+    if (!isWithin) continue;
+    // Joints outside go to the border, and the points beside them no further. Elsewhere these may well lie outside.
+    for (size_t k = 0; k < points.size(); k += 3) {
+      const Point2 at = points[k];
+      const bool isOutU = at.x < low.x || at.x > high.x, isOutV = at.y < low.y || at.y > high.y;
+      for (size_t j = k - (k > 0); j <= k + 1 && j < points.size(); ++j) {
+        if (isOutU) points[j].x = std::clamp(points[j].x, low.x, high.x);
+        if (isOutV) points[j].y = std::clamp(points[j].y, low.y, high.y);
+      }
     }
   }
 }
