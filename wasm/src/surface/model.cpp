@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/union_find.h"
+#include "surface/missing_curves.h"
 
 namespace sf {
 namespace {
@@ -104,6 +105,7 @@ class ModelReader {
   bool read();
   void findBox();
   void addLoops();
+  void findCurves(Charge& charge);
   void checkUses();
   void unite();
   std::vector<ModelFault> faults;
@@ -235,7 +237,7 @@ void ModelReader::readUse(ModelUse& use, uint32_t place, uint32_t loopInFace) {
   use.edge = edge;
   const ModelEdge& e = m_.edges[edge];
   if (edgeFaults_[edge].isFaulty) return fail(edgeFaults_[edge].fault);
-  if (!(flags & 4)) return e.curve ? void() : fail(SurfaceFault::BadEdge);
+  if (!(flags & 4)) return e.curve || e.isDegenerate ? void() : fail(SurfaceFault::BadEdge);
   SurfaceFault fault;
   if (findFault(c, fault)) return fail(fault);
   const KnotVector knots{c.degree, c.knots};
@@ -327,6 +329,14 @@ void ModelReader::addLoop(uint32_t number) {
 void ModelReader::addLoops() {
   for (uint32_t f = 0; f < m_.faces.size(); ++f)
     if (!m_.faces[f].isLeftOut && m_.faces[f].firstLoop == m_.faces[f].endLoop) addLoop(f);
+}
+
+/// Where curves of space have none in the domain.
+void ModelReader::findCurves(Charge& charge) {
+  for (uint32_t f = 0; f < m_.faces.size(); ++f)
+    if (!m_.faces[f].isLeftOut &&
+        !findMissingCurves(m_, f, kSpaceSlack * m_.diagonal(), work_, charge))
+      return;
 }
 
 /// Whether a use's curve stays in the domain, with its edge, and ends where the next one begins.
@@ -459,6 +469,8 @@ bool readModel(const ModelArrays& arrays, Work& work, Charge& charge, Model& mod
   if (!reader.read()) return model = {}, false;
   reader.findBox();
   reader.addLoops();
+  reader.findCurves(charge);
+  if (!work.going()) return model = {}, false;
   reader.checkUses();
   reader.unite();
   faults.swap(reader.faults);

@@ -1,8 +1,7 @@
 // A trimming curve in the domain of a surface, by the parameter of its edge.
 //
 // Source: Kumar, sec. 2.
-// Differs: where a file has none, it is found by inversion: the nearest point of the surface to each point of the edge, found
-// from the one next to it, so that it runs on over seams and is then brought back into the domain.
+// Differs: where a file has none, it is found by inversion (missing_curves.h), and is cubic then.
 #pragma once
 #include <memory>
 #include <vector>
@@ -19,6 +18,10 @@ class TrimCurve {
   explicit TrimCurve(const NurbsCurveView& view) : curve_(std::make_unique<NurbsCurve>(view)) {}
   /// The straight way from one point to another.
   TrimCurve(Point2 from, Point2 to, double t0, double t1);
+  /// Of cubic pieces.
+  ///   breaks  [n + 1] rising
+  ///   points  [3n + 1] their Bézier points
+  TrimCurve(const std::vector<double>& breaks, const std::vector<Point2>& points);
 
   bool isFound() const { return curve_ != nullptr; }
   /// At a parameter of the edge.
