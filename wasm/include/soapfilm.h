@@ -138,6 +138,12 @@ enum SfSurfacesArray { SF_SURFACES_ARRAYS(SF_ARRAY) SfSurfacesArrayCount };
 #define SF_ARRAY(type, name, meaning) SfTessellation_##name,
 enum SfTessellationArray { SF_TESSELLATION_ARRAYS(SF_ARRAY) SfTessellationArrayCount };
 #undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SfChange_##name,
+enum SfChangeArray { SF_CHANGE_ARRAYS(SF_ARRAY) SfChangeArrayCount };
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SfMove_##name,
+enum SfMoveArray { SF_MOVE_ARRAYS(SF_ARRAY) SfMoveArrayCount };
+#undef SF_ARRAY
 
 /// Arrays handed back by one call; owned by the caller until sf_result_free.
 typedef struct SfResult SfResult;
@@ -320,6 +326,27 @@ SfStatus sf_open_surfaces(const uint32_t* shape, uint32_t shapeLength, const dou
 SF_API(sf_tessellate_surfaces)
 SfStatus sf_tessellate_surfaces(uint32_t session, const SfSamplingSettings* settings,
                                 double maxBytes, SfPlace* where, SfResult** result);
+
+/// Makes the mesh of a session one of another sampling, or of poles that have moved, from what there is.
+///   as for sf_tessellate_surfaces, but
+///   result    out: SF_CHANGE_ARRAYS, on top of the mesh that the last call has left; of all of it after
+///             sf_tessellate_surfaces, or if there is none yet
+SF_API(sf_update_surfaces)
+SfStatus sf_update_surfaces(uint32_t session, const SfSamplingSettings* settings, double maxBytes,
+                            SfPlace* where, SfResult** result);
+
+/// Moves a pole of a face's surface; the next update or tessellation follows.
+///   pole      its index; BadOption if there is no such face or pole, or a number is not finite
+///   weight    its new weight, positive, or 0: as it was
+///   result    out: SF_MOVE_ARRAYS; with a fault all is as before
+SF_API(sf_move_pole)
+SfStatus sf_move_pole(uint32_t session, uint32_t face, uint32_t pole, double x, double y, double z,
+                      double weight, double maxBytes, SfPlace* where, SfResult** result);
+
+/// The same for a pole of the trimming curve of a use, in the domain of the face.
+SF_API(sf_move_trim)
+SfStatus sf_move_trim(uint32_t session, uint32_t face, uint32_t loop, uint32_t use, uint32_t pole,
+                      double u, double v, double maxBytes, SfPlace* where, SfResult** result);
 
 /// Ends the session of that number, if there is one. A later session may get the number. Returns Ok.
 SF_API(sf_close_surfaces) SfStatus sf_close_surfaces(uint32_t session);

@@ -439,4 +439,29 @@
   X(SfSurfaceReport, reports, "[r] what is to be told")                          \
   X(SfTessellationNumbers, numbers, "[1]")
 
+/* What an update has changed. Blocks of faces have room to grow: what is left of them is filled with triangles and strips of one
+   vertex, and vertices that no triangle has. */
+#define SF_CHANGE_ARRAYS(X)                                                                    \
+  X(uint32_t, vertexRanges, "[2a] from, to: vertices that are written")                        \
+  X(float, positions, "of these vertices")                                                     \
+  X(float, normals, "of these vertices")                                                       \
+  X(float, uvs, "of these vertices")                                                           \
+  X(uint32_t, indexRanges, "[2b] from, to: elements of the triangles' array that are written") \
+  X(uint32_t, triangles, "these elements")                                                     \
+  X(uint32_t, stripRanges, "[2c] from, to: elements of the strips' array that are written")    \
+  X(uint32_t, strips, "these elements")                                                        \
+  X(uint32_t, faces, "the faces that have changed")                                            \
+  X(uint32_t, sizes, "[3] numbers of vertices, of elements of triangles and of strips")        \
+  X(uint32_t, faceStarts, "[f+1] in triangles")                                                \
+  X(uint32_t, stripStarts, "[s+1]")                                                            \
+  X(uint32_t, edges, "vertices along each edge, of one of its faces")                          \
+  X(uint32_t, edgeStarts, "[e+1]")                                                             \
+  X(uint32_t, same, "[n] the first vertex at the same place")                                  \
+  X(SfSurfaceReport, reports, "[r] what is to be told")                                        \
+  X(SfTessellationNumbers, numbers, "[1]")
+
+/* sf_move_pole, sf_move_trim */
+
+#define SF_MOVE_ARRAYS(X) X(SfFaceFault, faults, "[0 or 1] why it is refused")
+
 #endif

@@ -79,5 +79,11 @@ SF_SURFACES_ARRAYS(SF_ARRAY)
 #define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfTessellation, type, name)
 SF_TESSELLATION_ARRAYS(SF_ARRAY)
 #undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfChange, type, name)
+SF_CHANGE_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
+#define SF_ARRAY(type, name, meaning) SF_ELEMENT(SfMove, type, name)
+SF_MOVE_ARRAYS(SF_ARRAY)
+#undef SF_ARRAY
 
 }  // namespace sf

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/turn.h"
 #include "polygon/strips/strips.h"
 #include "polygon/sweep/sweep.h"
 #include "polygon/triangulate.h"
+#include "surface/band_patch.h"
 #include "surface/trace.h"
+#include "surface/vertex_table.h"
 #include "triangles/triangle_mesh.h"
 
 namespace sf {
@@ -15,6 +18,8 @@ namespace {
 /// Corners of one vertex within this share of the domain are one.
 constexpr double kSameCorner = 1e-6;
 constexpr int kMostRefinings = 8, kMostRounds = 16;
+/// A band that changes in more places than this is made anew.
+constexpr size_t kMostChanges = 64;
 
 Vec3 middle(Vec3 a, Vec3 b) { return 0.5 * (a + b); }
 Point2 middle(Point2 a, Point2 b) { return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}; }
@@ -30,18 +35,45 @@ struct Rings {
   bool areGrown = false;
 };
 
+/// Turns triangles and strips to the other side.
+void turnRound(FaceMesh& mesh) {
+  for (size_t i = 0; i < mesh.triangles.size(); i += 3)
+    std::swap(mesh.triangles[i + 1], mesh.triangles[i + 2]);
+  // A strip: backwards if it has an odd number of indices, else with its first one twice.
+  std::vector<uint32_t> turned, starts = {0};
+  for (size_t s = 0; s + 1 < mesh.stripStarts.size(); ++s) {
+    const uint32_t from = mesh.stripStarts[s], to = mesh.stripStarts[s + 1];
+    if ((to - from) % 2 == 1) {
+      for (uint32_t i = to; i > from; --i) turned.push_back(mesh.strips[i - 1]);
+    } else {
+      turned.push_back(mesh.strips[from]);
+      turned.insert(turned.end(), mesh.strips.begin() + from, mesh.strips.begin() + to);
+    }
+    starts.push_back(uint32_t(turned.size()));
+  }
+  mesh.strips.swap(turned), mesh.stripStarts.swap(starts);
+}
+
 }  // namespace
 
 struct FaceMesher::State {
-  State(const Model& model, Work& work) : model(model), work(work) {}
+  explicit State(const Model& model) : model(model) {}
 
   const Model& model;
-  Work& work;
+  Work* work = nullptr;  // of the call
   Trace trace;
   PolygonTriangulator triangulator;
+  BandPatch patch;
   PlaneSweep sweep;
   LinkedPolygon linked;
   Visibility seen;
+  VertexTable table;
+  // [vertices of the model] where each was met last.
+  struct Corner {
+    uint32_t face;
+    Point2 uv;
+  };
+  std::vector<Corner> corners;
 
   // Of the face at hand.
   uint32_t face = 0;
@@ -51,46 +83,59 @@ struct FaceMesher::State {
   FaceMesh* mesh = nullptr;
   Density* density = nullptr;
   double tolerance = 0;
+  bool updates = false;
   std::vector<double> us, vs, localUs, localVs, gridAt, gridNormals, centers, centerNormals;
+  std::vector<uint8_t> isNewU, isNewV;  // [cells] whether the interval was none before
+  std::vector<FaceMesh::Strip> gridStrips;
   std::vector<uint32_t> gridVertex;
   std::vector<uint8_t> halvedU, halvedV;
+  std::vector<uint32_t> oldUseVertices, oldUseStarts, oldBorder;
+  std::vector<uint8_t> isMet;  // [vertices] in this run
   TriangleMesh band;
-  std::vector<Point2> bandAt, metric;
-  std::vector<uint32_t> bandVertex;  // number in the mesh
+  std::vector<double> bandOff;
+  std::vector<Point2> bandAt;
   std::vector<uint32_t> quadStrips, quadStarts, quadTriangles;
 
-  // [vertices of the model] where each was met last.
-  struct Corner {
-    uint32_t face;
-    Point2 uv;
-  };
-  std::vector<Corner> corners;
-
-  Point2 sharedCorner(uint32_t vertex, Point2 uv);
   Point2 scaled(Point2 uv) const {
     return {(uv.x - origin.x) * scale.x, (uv.y - origin.y) * scale.y};
   }
   Point2 unscaled(Point2 p) const { return {origin.x + p.x / scale.x, origin.y + p.y / scale.y}; }
 
+  Point2 sharedCorner(uint32_t vertex, Point2 uv);
   void begin(uint32_t f, const EdgeSamples& samples, FaceMesh& out);
   FaceProblem problemOf(const Outcome& outcome) const;
   FaceProblem checkRings();
   bool meshGrid(Density::Lines& lines);
   bool layOut(const Density::Lines& lines);
-  void quads(Density::Lines& lines, bool& isRefined);
+  void measureCells(const Density::Lines& lines, bool& isRefined);
+  void writeQuads();
+  uint32_t gridVertexAt(uint32_t name);
+  void makeIslands();
   FaceProblem triangulateBand();
+  bool patchBand();
+  void findChanges(std::vector<Box2>& changed) const;
   bool refineBand();
   double deviationAt(Point2 uv, Vec3 at) const;
-  uint32_t addVertex(Point2 uv, Vec3 at, Vec3 normal);
+  uint32_t addVertex(Point2 uv, Vec3 at, Vec3 normal, FaceMesh::Role role);
   void finish();
 };
 
-FaceMesher::FaceMesher(const Model& model, Work& work) : state_(new State(model, work)) {}
+FaceMesher::FaceMesher(const Model& model) : state_(new State(model)) {}
 FaceMesher::~FaceMesher() = default;
 
-uint32_t FaceMesher::State::addVertex(Point2 uv, Vec3 at, Vec3 normal) {
-  mesh->uvs.push_back(uv), mesh->positions.push_back(at), mesh->normals.push_back(normal);
-  return uint32_t(mesh->positions.size()) - 1;
+uint32_t FaceMesher::State::addVertex(Point2 uv, Vec3 at, Vec3 normal, FaceMesh::Role role) {
+  uint32_t v;
+  if (mesh->unused.empty()) {
+    v = uint32_t(mesh->positions.size());
+    mesh->uvs.push_back(uv), mesh->positions.push_back(at), mesh->normals.push_back(normal);
+    mesh->roles.push_back(role), mesh->poles.push_back(v), isMet.push_back(1);
+  } else {
+    v = mesh->unused.back();
+    mesh->unused.pop_back();
+    mesh->uvs[v] = uv, mesh->positions[v] = at, mesh->normals[v] = normal;
+    mesh->roles[v] = role, mesh->poles[v] = v, isMet[v] = 1;
+  }
+  return v;
 }
 
 /// The place of a corner in the domain: that of an earlier one of the same vertex, if they are nearly at one place.
@@ -108,8 +153,16 @@ Point2 FaceMesher::State::sharedCorner(uint32_t vertex, Point2 uv) {
 
 /// Lays out the rings, and their vertices in the mesh.
 void FaceMesher::State::begin(uint32_t f, const EdgeSamples& samples, FaceMesh& out) {
-  face = f, mesh = &out, out = {};
+  face = f, mesh = &out;
+  if (!updates) out = {};
   surface = model.faces[f].surface.get();
+  isMet.assign(out.positions.size(), 0);
+  table.reset(out.positions.size());
+  for (uint32_t v = 0; v < out.positions.size(); ++v)
+    if (out.roles[v] != FaceMesh::Role::None) table.add(v, out.uvs);
+  oldUseVertices.swap(out.useVertices), oldUseStarts.swap(out.useStarts);
+  oldBorder.swap(out.border);
+  out.useVertices.clear(), out.useStarts.clear(), out.border.clear();
   rings = {};
   rings.starts.push_back(0);
   std::vector<Point2> uvs;
@@ -153,18 +206,19 @@ void FaceMesher::State::begin(uint32_t f, const EdgeSamples& samples, FaceMesh& 
       area += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
     }
     const bool turns = (area < 0) == loop.isOuter;
-    // One vertex at a pole: neighbours at one place are one.
     std::vector<uint32_t> vertexOf(n);
     for (uint32_t i = 0; i < n; ++i) {
-      if (i > 0 && places[i] == places[i - 1]) {
-        vertexOf[i] = vertexOf[i - 1];
-        continue;
+      const auto isAt = [&](uint32_t v) { return out.positions[v] == at[i]; };
+      uint32_t v = table.find(uvs[i], out.uvs, isAt);
+      if (v == kNone) {
+        v = addVertex(uvs[i], at[i], surface->normalAt(uvs[i].x, uvs[i].y), FaceMesh::Role::Edge);
+        table.add(v, out.uvs);
       }
-      if (i > 0 && i + 1 == n && places[i] == places[0]) {
-        vertexOf[i] = vertexOf[0];
-        continue;
-      }
-      vertexOf[i] = addVertex(uvs[i], at[i], {});
+      vertexOf[i] = v, isMet[v] = 1, out.roles[v] = FaceMesh::Role::Edge;
+      // One vertex at a pole: neighbours at one place are one.
+      out.poles[v] = i > 0 && places[i] == places[i - 1]             ? out.poles[vertexOf[i - 1]]
+                     : i > 0 && i + 1 == n && places[i] == places[0] ? out.poles[vertexOf[0]]
+                                                                     : v;
     }
     for (uint32_t k = 0; k < n; ++k) {
       const uint32_t i = turns ? n - 1 - k : k;
@@ -175,13 +229,12 @@ void FaceMesher::State::begin(uint32_t f, const EdgeSamples& samples, FaceMesh& 
       rings.vertex.push_back(vertexOf[i]);
       rings.use.push_back(uses[segment]), rings.sample.push_back(numbers[segment]);
     }
-    mesh->edgeVertices = uint32_t(mesh->positions.size());
     rings.starts.push_back(uint32_t(rings.at.size()));
     rings.loops.push_back(l - model.faces[f].firstLoop);
     for (uint32_t u = 0; u < firsts.size(); ++u) {
       const uint32_t end = u + 1 < firsts.size() ? firsts[u + 1] : n;
       for (uint32_t i = firsts[u]; i <= end; ++i)
-        mesh->useVertices.push_back(vertexOf[i == n ? 0 : i]);
+        mesh->useVertices.push_back(out.poles[vertexOf[i == n ? 0 : i]]);
       mesh->useStarts.push_back(uint32_t(mesh->useVertices.size()));
     }
   }
@@ -237,16 +290,18 @@ FaceProblem FaceMesher::State::checkRings() {
       xy.push_back(rings.at[i].x), xy.push_back(rings.at[i].y);
     starts.push_back(uint32_t(xy.size() / 2));
   }
-  Outcome outcome = sweep.run({xy, starts, {}, false}, true, true, work, linked, seen);
+  Outcome outcome = sweep.run({xy, starts, {}, false}, true, true, *work, linked, seen);
   if (outcome.ok()) return {};
   if (outcome.loop != kNone) outcome.loop = order[outcome.loop];
   if (outcome.otherLoop != kNone) outcome.otherLoop = order[outcome.otherLoop];
   return problemOf(outcome);
 }
 
-FaceProblem FaceMesher::check(uint32_t face, const EdgeSamples& samples) {
+FaceProblem FaceMesher::check(uint32_t face, const EdgeSamples& samples, Work& work) {
   State& s = *state_;
+  s.work = &work;
   FaceMesh mesh;
+  s.updates = false;
   s.begin(face, samples, mesh);
   const BezierSpans &u = s.surface->u(), &v = s.surface->v();
   s.origin = {u.breaks()[0], v.breaks()[0]};
@@ -269,136 +324,202 @@ bool FaceMesher::State::layOut(const Density::Lines& lines) {
   localUs.clear(), localVs.clear();
   for (const double u : us) localUs.push_back((u - origin.x) * scale.x);
   for (const double v : vs) localVs.push_back((v - origin.y) * scale.y);
-  if (!work.tick(20 * us.size() * vs.size())) return false;
+  if (!work->tick(20 * us.size() * vs.size())) return false;
   trace.run(rings.at, rings.starts, localUs, localVs);
+  // Intervals and strips that the last run had too.
+  const auto findNew = [](const std::vector<double>& before, const std::vector<double>& now,
+                          std::vector<uint8_t>& isNew, auto&& met) {
+    isNew.assign(now.size() - 1, 1);
+    size_t k = 0;
+    for (size_t i = 0; i + 1 < now.size(); ++i) {
+      while (k + 1 < before.size() && before[k] < now[i]) ++k;
+      if (k + 1 < before.size() && before[k] == now[i] && before[k + 1] == now[i + 1])
+        isNew[i] = 0, met(i, k);
+    }
+  };
+  gridStrips.assign(us.size() - 1, {false, 0});
+  findNew(mesh->us, us, isNewU, [&](size_t i, size_t k) {
+    gridStrips[i] = mesh->gridStrips[k];
+    if (gridStrips[i].off > tolerance) isNewU[i] = 1;
+  });
+  findNew(mesh->vs, vs, isNewV, [](size_t, size_t) {});
   return true;
 }
 
-/// Quads of the whole cells, in one strip a run, and whether lines have to be added for them.
-void FaceMesher::State::quads(Density::Lines& lines, bool& isRefined) {
-  const uint32_t nv = uint32_t(vs.size());
+/// How far new cells are off the surface: which diagonal the quads of a strip have, and whether lines have to be added.
+void FaceMesher::State::measureCells(const Density::Lines& lines, bool& isRefined) {
+  const size_t nu = us.size(), nv = vs.size();
   isRefined = false;
-  quadStrips.clear(), quadStarts.assign(1, 0), quadTriangles.clear();
-  gridAt.resize(3 * us.size() * vs.size()), gridNormals.resize(gridAt.size());
-  if (trace.runs.empty() && trace.islands.empty()) return;
-  surface->grid(us, vs, gridAt.data(), gridNormals.data());
-  const auto at = [&](const std::vector<double>& of, size_t i) {
+  halvedU.assign(nu - 1, 0), halvedV.assign(nv - 1, 0);
+  if (trace.runs.empty()) return;
+  const auto at = [](const std::vector<double>& of, size_t i) {
     return Vec3{of[3 * i], of[3 * i + 1], of[3 * i + 2]};
   };
   std::vector<double> middleUs, middleVs;
-  for (size_t i = 0; i + 1 < us.size(); ++i) middleUs.push_back(0.5 * (us[i] + us[i + 1]));
-  for (size_t j = 0; j + 1 < vs.size(); ++j) middleVs.push_back(0.5 * (vs[j] + vs[j + 1]));
-  if (!trace.runs.empty()) {
+  for (size_t i = 0; i + 1 < nu; ++i) middleUs.push_back(0.5 * (us[i] + us[i + 1]));
+  for (size_t j = 0; j + 1 < nv; ++j) middleVs.push_back(0.5 * (vs[j] + vs[j + 1]));
+  // All at once, or in an update one by one.
+  if (!updates) {
     centers.resize(3 * middleUs.size() * middleVs.size()), centerNormals.resize(centers.size());
     surface->grid(middleUs, middleVs, centers.data(), centerNormals.data());
   }
-  halvedU.assign(middleUs.size(), 0), halvedV.assign(middleVs.size(), 0);
-  const auto vertex = [&](uint32_t i, uint32_t j) {
-    const uint32_t name = i * nv + j;
-    uint32_t& v = gridVertex[name];
-    if (v == kNone) v = addVertex({us[i], vs[j]}, at(gridAt, name), at(gridNormals, name));
-    return v;
-  };
-  double deviation = 0;
-  for (const CellRun& run : trace.runs) {
-    const uint32_t i = run.strip;
-    double up = 0, down = 0;  // the largest deviations of both diagonals
-    for (uint32_t j = run.first; j < run.end; ++j) {
+  const auto offs = [&](uint32_t i, uint32_t j, double(&off)[2]) {
+    Vec3 m, n;
+    if (!updates) {
       const size_t c = size_t(i) * (nv - 1) + j;
-      const Vec3 n = at(centerNormals, c), m = at(centers, c);
-      const auto off = [&](uint32_t a, uint32_t b) {
-        return std::fabs(dot(n, middle(at(gridAt, a), at(gridAt, b)) - m));
-      };
-      const double cellUp = off(i * nv + j, (i + 1) * nv + j + 1);
-      const double cellDown = off((i + 1) * nv + j, i * nv + j + 1);
-      up = std::max(up, cellUp), down = std::max(down, cellDown);
+      m = at(centers, c), n = at(centerNormals, c);
+    } else {
+      const SurfacePoint p = surface->at(middleUs[i], middleVs[j]);
+      m = p.at, n = p.normal();
+      const double size = length(n);
+      n = size > 0 ? (1 / size) * n : Vec3{};
     }
-    const bool isUp = up < down;
-    const double worst = std::min(up, down);
-    if (worst > tolerance)
-      for (uint32_t j = run.first; j < run.end; ++j) {
-        const size_t c = size_t(i) * (nv - 1) + j;
-        const uint32_t a = isUp ? i * nv + j : (i + 1) * nv + j;
-        const uint32_t b = isUp ? (i + 1) * nv + j + 1 : i * nv + j + 1;
-        const double off = std::fabs(
-            dot(at(centerNormals, c), middle(at(gridAt, a), at(gridAt, b)) - at(centers, c)));
-        if (off <= tolerance) continue;
-        const double eu = density->u.error(lines.u.nodes[i]),
-                     ev = density->v.error(lines.v.nodes[j]);
+    const auto corner = [&](size_t a) { return mesh->positions[gridVertexAt(uint32_t(a))]; };
+    const size_t low = i * nv + j, high = low + nv;
+    off[0] = std::fabs(dot(n, middle(corner(high), corner(low + 1)) - m));
+    off[1] = std::fabs(dot(n, middle(corner(low), corner(high + 1)) - m));
+  };
+  for (size_t r = 0; r < trace.runs.size();) {
+    const uint32_t i = trace.runs[r].strip;
+    size_t end = r;
+    while (end < trace.runs.size() && trace.runs[end].strip == i) ++end;
+    FaceMesh::Strip& strip = gridStrips[i];
+    double most[2] = {0, 0};
+    const auto each = [&](auto&& look) {
+      for (size_t k = r; k < end; ++k)
+        for (uint32_t j = trace.runs[k].first; j < trace.runs[k].end; ++j) {
+          if (!isNewU[i] && !isNewV[j]) continue;
+          double off[2];
+          offs(i, j, off);
+          look(j, off);
+        }
+    };
+    each([&](uint32_t, const double(&off)[2]) {
+      most[0] = std::max(most[0], off[0]), most[1] = std::max(most[1], off[1]);
+    });
+    if (isNewU[i]) strip = {most[1] < most[0], 0};
+    strip.off = std::max(strip.off, most[strip.rises]);
+    if (most[strip.rises] > tolerance) {
+      each([&](uint32_t j, const double(&off)[2]) {
+        if (off[strip.rises] <= tolerance) return;
+        const uint32_t nodeU = lines.u.nodes[i], nodeV = lines.v.nodes[j];
+        const double eu = density->u.error(nodeU), ev = density->v.error(nodeV);
         const bool alongU =
-            eu > 2 * ev || (ev <= 2 * eu && density->u.length(lines.u.nodes[i]) >=
-                                                density->v.length(lines.v.nodes[j]));
+            eu > 2 * ev || (ev <= 2 * eu && density->u.length(nodeU) >= density->v.length(nodeV));
         (alongU ? halvedU[i] : halvedV[j]) = 1;
         isRefined = true;
-      }
-    deviation = std::max(deviation, worst);
+      });
+    }
+    r = end;
+  }
+}
+
+/// The vertex at a place of the grid.
+uint32_t FaceMesher::State::gridVertexAt(uint32_t name) {
+  uint32_t& v = gridVertex[name];
+  if (v != kNone) return v;
+  const uint32_t nv = uint32_t(vs.size());
+  const Point2 uv{us[name / nv], vs[name % nv]};
+  if (updates) {
+    v = table.find(uv, mesh->uvs,
+                   [&](uint32_t k) { return mesh->roles[k] != FaceMesh::Role::Edge; });
+    if (v != kNone) {
+      isMet[v] = 1, mesh->roles[v] = FaceMesh::Role::Grid;
+      return v;
+    }
+    v = addVertex(uv, surface->at(uv.x, uv.y).at, surface->normalAt(uv.x, uv.y),
+                  FaceMesh::Role::Grid);
+    table.add(v, mesh->uvs);
+    return v;
+  }
+  const double *p = &gridAt[3 * size_t(name)], *n = &gridNormals[3 * size_t(name)];
+  return v = addVertex(uv, {p[0], p[1], p[2]}, {n[0], n[1], n[2]}, FaceMesh::Role::Grid);
+}
+
+/// The grid, with lines added until all its quads are near the surface.
+bool FaceMesher::State::meshGrid(Density::Lines& lines) {
+  const size_t ringVertices = mesh->positions.size();
+  for (int k = 0;; ++k) {
+    if (!layOut(lines)) return false;
+    gridVertex.assign(us.size() * vs.size(), kNone);
+    if (!updates && !(trace.runs.empty() && trace.islands.empty())) {
+      gridAt.resize(3 * us.size() * vs.size()), gridNormals.resize(gridAt.size());
+      surface->grid(us, vs, gridAt.data(), gridNormals.data());
+    }
+    bool isRefined = false;
+    measureCells(lines, isRefined);
+    if (!isRefined || k == kMostRefinings) break;
+    density->u.halve(halvedU, lines.u), density->v.halve(halvedV, lines.v);
+    if (updates) continue;
+    mesh->positions.resize(ringVertices), mesh->normals.resize(ringVertices);
+    mesh->uvs.resize(ringVertices), mesh->roles.resize(ringVertices);
+    mesh->poles.resize(ringVertices), isMet.resize(ringVertices);
+  }
+  for (const FaceMesh::Strip& strip : gridStrips)
+    mesh->deviation = std::max(mesh->deviation, strip.off);
+  writeQuads();
+  return true;
+}
+
+/// Quads of the whole cells, in one strip a run.
+void FaceMesher::State::writeQuads() {
+  const uint32_t nv = uint32_t(vs.size());
+  quadStrips.clear(), quadStarts.assign(1, 0), quadTriangles.clear();
+  for (const CellRun& run : trace.runs) {
+    const uint32_t i = run.strip;
+    const bool rises = gridStrips[i].rises;
     for (uint32_t j = run.first; j <= run.end; ++j) {
-      const uint32_t a = vertex(i, j), b = vertex(i + 1, j);
-      // The first triangle of a strip is the way round it is: from the left line for diagonals that fall.
-      quadStrips.push_back(isUp ? b : a), quadStrips.push_back(isUp ? a : b);
+      const uint32_t a = gridVertexAt(i * nv + j), b = gridVertexAt((i + 1) * nv + j);
+      // A strip that begins on the left line has diagonals that fall.
+      quadStrips.push_back(rises ? b : a), quadStrips.push_back(rises ? a : b);
       if (j == run.end) break;
-      const uint32_t c = vertex(i, j + 1), d = vertex(i + 1, j + 1);
-      if (isUp)
+      const uint32_t c = gridVertexAt(i * nv + j + 1), d = gridVertexAt((i + 1) * nv + j + 1);
+      if (rises)
         quadTriangles.insert(quadTriangles.end(), {a, b, d, a, d, c});
       else
         quadTriangles.insert(quadTriangles.end(), {a, b, c, b, d, c});
     }
     quadStarts.push_back(uint32_t(quadStrips.size()));
   }
-  if (!isRefined) mesh->deviation = std::max(mesh->deviation, deviation);
 }
 
-/// The grid's quads, with lines added until all are near the surface.
-bool FaceMesher::State::meshGrid(Density::Lines& lines) {
-  const size_t ringVertices = mesh->positions.size();
-  for (int k = 0;; ++k) {
-    if (!layOut(lines)) return false;
-    gridVertex.assign(us.size() * vs.size(), kNone);
-    bool isRefined = false;
-    quads(lines, isRefined);
-    if (!isRefined || k == kMostRefinings) return true;
-    density->u.halve(halvedU, lines.u), density->v.halve(halvedV, lines.v);
-    mesh->positions.resize(ringVertices), mesh->normals.resize(ringVertices);
-    mesh->uvs.resize(ringVertices);
-  }
+/// Vertices of the grid between quads and trimming curves.
+void FaceMesher::State::makeIslands() {
+  for (const uint32_t name : trace.islands) gridVertexAt(name);
 }
 
-/// Triangles between the grid and the trimming curves.
+/// Triangles between the grid and the trimming curves, all of them.
 FaceProblem FaceMesher::State::triangulateBand() {
-  const uint32_t nv = uint32_t(vs.size());
   std::vector<double> xy, islands;
-  std::vector<uint32_t> starts = {0};
-  bandVertex.clear(), bandAt.clear();
+  std::vector<uint32_t> starts = {0}, vertices;
   const auto add = [&](Point2 p, uint32_t vertex) {
     xy.push_back(p.x), xy.push_back(p.y);
-    bandAt.push_back(p), bandVertex.push_back(vertex);
+    vertices.push_back(vertex);
   };
   for (size_t r = 0; r + 1 < rings.starts.size(); ++r) {
     for (uint32_t i = rings.starts[r]; i < rings.starts[r + 1]; ++i)
       add(rings.at[i], rings.vertex[i]);
-    starts.push_back(uint32_t(bandAt.size()));
+    starts.push_back(uint32_t(vertices.size()));
   }
+  const auto place = [&](uint32_t name) {
+    return Point2{localUs[name / vs.size()], localVs[name % vs.size()]};
+  };
   for (size_t r = 0; r + 1 < trace.borderStarts.size(); ++r) {
-    for (uint32_t i = trace.borderStarts[r]; i < trace.borderStarts[r + 1]; ++i) {
-      const uint32_t name = trace.border[i];
-      add({localUs[name / nv], localVs[name % nv]}, gridVertex[name]);
-    }
-    starts.push_back(uint32_t(bandAt.size()));
+    for (uint32_t i = trace.borderStarts[r]; i < trace.borderStarts[r + 1]; ++i)
+      add(place(trace.border[i]), gridVertexAt(trace.border[i]));
+    starts.push_back(uint32_t(vertices.size()));
   }
   for (const uint32_t name : trace.islands) {
-    const uint32_t i = name / nv, j = name % nv;
-    const Vec3 at{gridAt[3 * name], gridAt[3 * name + 1], gridAt[3 * name + 2]};
-    const Vec3 n{gridNormals[3 * name], gridNormals[3 * name + 1], gridNormals[3 * name + 2]};
-    gridVertex[name] = addVertex({us[i], vs[j]}, at, n);
-    islands.push_back(localUs[i]), islands.push_back(localVs[j]);
-    bandAt.push_back({localUs[i], localVs[j]}), bandVertex.push_back(gridVertex[name]);
+    const Point2 p = place(name);
+    islands.push_back(p.x), islands.push_back(p.y);
+    vertices.push_back(gridVertexAt(name));
   }
   PolygonOptions options;
   options.delaunay = true;
   PolygonTriangulation found;
   const Outcome outcome =
-      triangulator.triangulate({xy, starts, islands, true}, options, work, found);
-  if (!work.going()) return problemOf({work.status()});
+      triangulator.triangulate({xy, starts, islands, true}, options, *work, found);
+  if (!work->going()) return problemOf({work->status()});
   if (!outcome.ok()) {
     const FaceProblem problem = checkRings();
     if (problem.kind != FaceProblem::Kind::None) return problem;
@@ -408,72 +529,188 @@ FaceProblem FaceMesher::State::triangulateBand() {
     unknown.kind = FaceProblem::Kind::Crossing, unknown.fault = SurfaceFault::Degenerate;
     return unknown;
   }
-  band.corners.swap(found.triangles);
+  band.corners.clear();
+  for (const uint32_t v : found.triangles) band.corners.push_back(vertices[v]);
+  bandOff.assign(band.corners.size() / 3, Sampling::kNoLimit);
   return {};
+}
+
+/// Where the band may be another one than it was.
+void FaceMesher::State::findChanges(std::vector<Box2>& changed) const {
+  const auto add = [&](Point2 a, Point2 b) {
+    changed.push_back(
+        {std::min(a.x, b.x), std::max(a.x, b.x), std::min(a.y, b.y), std::max(a.y, b.y)});
+  };
+  // Between lines that were there before and are still there, all of the strip.
+  const auto addStrips = [&](const std::vector<double>& before, const std::vector<double>& now,
+                             bool alongU) {
+    const double inf = Sampling::kNoLimit;
+    size_t i = 0, k = 0;
+    while (i + 1 < now.size() && k + 1 < before.size()) {
+      size_t ni = i + 1, nk = k + 1;
+      while (now[ni] != before[nk]) (now[ni] < before[nk] ? ni : nk) += 1;
+      if (ni > i + 1 || nk > k + 1) {
+        const Point2 from = scaled(alongU ? Point2{now[i], origin.y} : Point2{origin.x, now[i]}),
+                     to = scaled(alongU ? Point2{now[ni], origin.y} : Point2{origin.x, now[ni]});
+        if (alongU)
+          changed.push_back({from.x, to.x, -inf, inf});
+        else
+          changed.push_back({-inf, inf, from.y, to.y});
+      }
+      i = ni, k = nk;
+    }
+  };
+  addStrips(mesh->us, us, true);
+  addStrips(mesh->vs, vs, false);
+  // Of a use, from each vertex that stays to the next one that stays, if there are others between.
+  const auto at = [&](uint32_t v) { return scaled(mesh->uvs[v]); };
+  for (size_t u = 0; u + 1 < oldUseStarts.size(); ++u) {
+    const uint32_t *a = &oldUseVertices[oldUseStarts[u]],
+                   *aEnd = &oldUseVertices[0] + oldUseStarts[u + 1];
+    const uint32_t *b = &mesh->useVertices[mesh->useStarts[u]],
+                   *bEnd = &mesh->useVertices[0] + mesh->useStarts[u + 1];
+    while (a + 1 < aEnd && b + 1 < bEnd) {
+      const uint32_t *na = a + 1, *nb = b + 1;
+      // Old vertices that are still met are those of the new list, in the same order.
+      while (na + 1 < aEnd && !(isMet[*na] && mesh->roles[*na] == FaceMesh::Role::Edge)) ++na;
+      while (nb + 1 < bEnd && *nb != *na) ++nb;
+      if (na > a + 1 || nb > b + 1) {
+        Box2 box{Sampling::kNoLimit, -Sampling::kNoLimit, Sampling::kNoLimit, -Sampling::kNoLimit};
+        const auto include = [&](Point2 p) {
+          box.u0 = std::min(box.u0, p.x), box.u1 = std::max(box.u1, p.x);
+          box.v0 = std::min(box.v0, p.y), box.v1 = std::max(box.v1, p.y);
+        };
+        for (const uint32_t* v = a; v <= na; ++v) include(at(*v));
+        for (const uint32_t* v = b; v <= nb; ++v) include(at(*v));
+        // Of some width, or nothing would overlap with one that lies along a line.
+        const double margin = 1e-9 * (localUs.back() - localUs[0] + localVs.back() - localVs[0]);
+        box.u0 -= margin, box.u1 += margin, box.v0 -= margin, box.v1 += margin;
+        changed.push_back(box);
+      }
+      a = na, b = nb;
+    }
+  }
+  // Around vertices that have come to the band.
+  std::vector<uint8_t> wasThere(mesh->positions.size(), 0);
+  for (const uint32_t v : oldBorder) wasThere[v] = 1;
+  const size_t nv = vs.size();
+  const auto addAround = [&](uint32_t name) {
+    if (wasThere[gridVertex[name]]) return;
+    const size_t i = name / nv, j = name % nv;
+    add({localUs[i > 0 ? i - 1 : 0], localVs[j > 0 ? j - 1 : 0]},
+        {localUs[std::min(i + 1, us.size() - 1)], localVs[std::min(j + 1, nv - 1)]});
+  };
+  for (const uint32_t name : trace.islands) addAround(name);
+  for (const uint32_t name : trace.border) addAround(name);
+}
+
+/// The band of the last run, where it still fits, and triangles where it does not. False if it has to be made anew.
+bool FaceMesher::State::patchBand() {
+  if (mesh->band.empty() || oldUseStarts.size() != mesh->useStarts.size()) return false;
+  std::vector<uint32_t> border, islands;
+  for (size_t r = 0; r + 1 < rings.starts.size(); ++r)
+    for (uint32_t i = rings.starts[r]; i < rings.starts[r + 1]; ++i) {
+      border.push_back(rings.vertex[i]);
+      border.push_back(rings.vertex[i + 1 == rings.starts[r + 1] ? rings.starts[r] : i + 1]);
+    }
+  for (size_t r = 0; r + 1 < trace.borderStarts.size(); ++r)
+    for (uint32_t i = trace.borderStarts[r]; i < trace.borderStarts[r + 1]; ++i) {
+      const uint32_t next = i + 1 == trace.borderStarts[r + 1] ? trace.borderStarts[r] : i + 1;
+      border.push_back(gridVertexAt(trace.border[i])),
+          border.push_back(gridVertexAt(trace.border[next]));
+    }
+  for (const uint32_t name : trace.islands) islands.push_back(gridVertexAt(name));
+  std::vector<Box2> changed;
+  findChanges(changed);
+  if (changed.size() > kMostChanges) return false;
+  // A vertex that is inside the quads now is none of the band.
+  std::vector<uint8_t> isGone(mesh->positions.size(), 1);
+  for (const uint32_t v : border) isGone[v] = 0;
+  for (const uint32_t v : islands) isGone[v] = 0;
+  for (uint32_t v = 0; v < isGone.size(); ++v)
+    if (mesh->roles[v] == FaceMesh::Role::Added) isGone[v] = 0;
+  bandAt.resize(mesh->positions.size());
+  for (uint32_t v = 0; v < bandAt.size(); ++v) bandAt[v] = scaled(mesh->uvs[v]);
+  size_t kept = 0;
+  std::vector<uint8_t> stays;
+  band.corners = mesh->band;
+  if (!patch.run({bandAt, border, islands, isGone, changed}, triangulator, *work, band.corners,
+                 kept, stays))
+    return false;
+  bandOff.clear();
+  for (size_t t = 0; t < stays.size(); ++t)
+    if (stays[t]) bandOff.push_back(mesh->bandOff[t]);
+  bandOff.resize(band.corners.size() / 3, Sampling::kNoLimit);
+  return true;
 }
 
 /// Adds points inside until triangles of the band are near the surface.
 bool FaceMesher::State::refineBand() {
   band.unused.clear(), band.edgeFrom.clear();
-  if (!findTwins(band.corners, uint32_t(bandAt.size()), work, band.twins)) return false;
-  if (density->isFlat()) return true;
-  const auto at = [&](uint32_t v) { return mesh->positions[bandVertex[v]]; };
-  std::vector<uint32_t> known;  // corners of the triangles that are near
+  bandAt.resize(mesh->positions.size());
+  for (uint32_t v = 0; v < bandAt.size(); ++v) bandAt[v] = scaled(mesh->uvs[v]);
+  if (!findTwins(band.corners, uint32_t(bandAt.size()), *work, band.twins)) return false;
+  if (density->isFlat()) {
+    std::fill(bandOff.begin(), bandOff.end(), 0);
+    return true;
+  }
+  const auto at = [&](uint32_t v) -> Vec3 { return mesh->positions[v]; };
+  std::vector<uint32_t> known = band.corners;  // corners of the triangles whose deviation is known
+  for (size_t t = 0; t < bandOff.size(); ++t)
+    if (bandOff[t] > tolerance) known[3 * t] = kNone;
   std::vector<uint32_t> opposite;
+  std::vector<uint8_t> isNew;
   const size_t most = 64 + 4 * bandAt.size();
-  double deviation = 0;
   const double quick = 0.25 * tolerance;
-  for (int round = 0; round < kMostRounds; ++round) {
-    deviation = 0;
+  struct Spot {
+    uint32_t half;  // of the triangle, or of the edge
+    uint32_t corners[3];
+    bool onEdge;
+    double off;
+  };
+  std::vector<Spot> spots;
+  for (int round = 0;; ++round) {
     band.at = bandAt, band.metric = bandAt;
-    struct Spot {
-      uint32_t half;  // of the triangle, or of the edge
-      uint32_t corners[3];
-      bool onEdge;
-      double off;
-    };
-    std::vector<Spot> spots;
+    spots.clear();
     known.resize(band.corners.size(), kNone);
     const uint32_t triangles = band.triangleCount();
-    std::vector<uint8_t> isNew(triangles);
+    isNew.resize(triangles), bandOff.resize(triangles);
     for (uint32_t t = 0; t < triangles; ++t)
-      isNew[t] = known[3 * t] != band.corners[3 * t] ||
-                 known[3 * t + 1] != band.corners[3 * t + 1] ||
-                 known[3 * t + 2] != band.corners[3 * t + 2];
+      isNew[t] = !std::equal(&known[3 * t], &known[3 * t] + 3, &band.corners[3 * t]);
     for (uint32_t t = 0; t < triangles; ++t) {
       if (!isNew[t]) continue;
       const uint32_t* c = &band.corners[3 * t];
       Spot worst{kNone, {c[0], c[1], c[2]}, false, tolerance};
-      const auto consider = [&](uint32_t half, bool onEdge, double off) {
-        deviation = std::max(deviation, off);
-        if (off > worst.off) worst.half = half, worst.onEdge = onEdge, worst.off = off;
+      double off = 0;
+      const auto consider = [&](uint32_t half, bool onEdge, double here) {
+        off = std::max(off, here);
+        if (here > worst.off) worst.half = half, worst.onEdge = onEdge, worst.off = here;
       };
+      double bound = 0;
       for (uint32_t k = 0; k < 3; ++k) {
         const uint32_t h = 3 * t + k, twin = band.twins[h];
-        if (twin == kNone || (twin < h && isNew[twin / 3])) continue;
         const uint32_t a = band.from(h), b = band.to(h);
-        if (density->bound(unscaled(bandAt[a]), unscaled(bandAt[b])) < quick) continue;
+        const double edge = density->bound(mesh->uvs[a], mesh->uvs[b]);
+        bound = std::max(bound, edge);
+        if (twin == kNone || (twin < h && isNew[twin / 3]) || edge < quick) continue;
         const Point2 uv = unscaled(middle(bandAt[a], bandAt[b]));
         consider(h, true, deviationAt(uv, middle(at(a), at(b))));
       }
-      const Point2 p = bandAt[c[0]], q = bandAt[c[1]], r = bandAt[c[2]];
-      const double bound = std::max({density->bound(unscaled(p), unscaled(q)),
-                                     density->bound(unscaled(q), unscaled(r)),
-                                     density->bound(unscaled(r), unscaled(p))});
-      if (bound >= quick &&
-          !(bandVertex[c[0]] == bandVertex[c[1]] || bandVertex[c[1]] == bandVertex[c[2]] ||
-            bandVertex[c[2]] == bandVertex[c[0]])) {
+      const auto pole = [&](int k) { return mesh->poles[c[k]]; };
+      if (bound >= quick && pole(0) != pole(1) && pole(1) != pole(2) && pole(2) != pole(0)) {
+        const Point2 p = bandAt[c[0]], q = bandAt[c[1]], r = bandAt[c[2]];
         const Point2 uv = unscaled({(p.x + q.x + r.x) / 3, (p.y + q.y + r.y) / 3});
         const Vec3 centroid = (1.0 / 3) * (at(c[0]) + at(c[1]) + at(c[2]));
         consider(3 * t, false, deviationAt(uv, centroid));
       }
+      bandOff[t] = off;
       if (worst.half != kNone)
         spots.push_back(worst);
       else
         std::copy(c, c + 3, &known[3 * t]);
     }
     if (spots.empty() || bandAt.size() > most || round + 1 == kMostRounds) break;
-    if (!work.tick(400 * spots.size() + 300 * triangles)) return false;
+    if (!work->tick(400 * spots.size() + 300 * triangles)) return false;
     for (const Spot& spot : spots) {
       // What an earlier insertion of the round has changed is looked at again in the next one.
       const uint32_t t = spot.half / 3;
@@ -483,88 +720,93 @@ bool FaceMesher::State::refineBand() {
       const Point2 place =
           spot.onEdge ? middle(p, q) : Point2{(p.x + q.x + r.x) / 3, (p.y + q.y + r.y) / 3};
       const Point2 uv = unscaled(place);
-      const SurfacePoint s = surface->at(uv.x, uv.y);
-      const uint32_t v = uint32_t(bandAt.size());
-      bandAt.push_back(place);
-      band.at = bandAt, band.metric = bandAt;
-      // Rounding may have moved the point off its edge, even out of both triangles.
-      const uint32_t g = spot.onEdge ? band.twins[spot.half] : kNone;
-      bool fits = band.orient(a, v, c) > 0 && band.orient(v, b, c) > 0;
-      if (spot.onEdge)
-        fits = fits && band.orient(b, v, band.apex(g)) > 0 && band.orient(v, a, band.apex(g)) > 0;
-      else
-        fits = fits && band.orient(a, b, v) > 0;
-      if (!fits) {
-        bandAt.pop_back();
-        continue;
+      // Rounding may move the point off its edge, even out of both triangles.
+      const Point2 to = scaled(uv);
+      const auto turns = [&](Point2 x, Point2 y, Point2 z) { return turn(x, y, z) > 0; };
+      bool fits = turns(p, to, r) && turns(to, q, r);
+      if (spot.onEdge) {
+        const Point2 s = bandAt[band.apex(band.twins[spot.half])];
+        fits = fits && turns(q, to, s) && turns(to, p, s);
+      } else {
+        fits = fits && turns(p, q, to);
       }
-      bandVertex.push_back(addVertex(uv, s.at, surface->normalAt(uv.x, uv.y)));
+      if (!fits) continue;
+      const uint32_t v = addVertex(uv, surface->at(uv.x, uv.y).at, surface->normalAt(uv.x, uv.y),
+                                   FaceMesh::Role::Added);
+      if (v == bandAt.size())
+        bandAt.push_back(to);
+      else
+        bandAt[v] = to;
+      band.at = bandAt, band.metric = bandAt;
       opposite.clear();
       band.insert({spot.half, spot.onEdge}, v, opposite);
-      legalize(band, opposite, 64, work);
+      legalize(band, opposite, 64, *work);
       known.resize(band.corners.size(), kNone);
     }
   }
-  mesh->deviation = std::max(mesh->deviation, deviation);
-  return work.going();
+  for (const double off : bandOff) mesh->deviation = std::max(mesh->deviation, off);
+  return work->going();
 }
 
-/// Triangles and strips of the whole face, on its own side.
+/// Triangles and strips of the whole face, on its own side, and what the next update begins with.
 void FaceMesher::State::finish() {
-  for (size_t v = 0; v < mesh->edgeVertices; ++v)
-    mesh->normals[v] = surface->normalAt(mesh->uvs[v].x, mesh->uvs[v].y);
+  mesh->us = us, mesh->vs = vs, mesh->gridStrips = gridStrips;
+  mesh->band = band.corners, mesh->bandOff = bandOff;
+  for (const uint32_t v : rings.vertex) mesh->border.push_back(v);
+  for (const uint32_t name : trace.border) mesh->border.push_back(gridVertex[name]);
+  for (const uint32_t name : trace.islands) mesh->border.push_back(gridVertex[name]);
+  // Numbers of vertices that are no longer there.
+  for (const uint32_t v : band.corners) isMet[v] = 1;
+  for (uint32_t v = 0; v < isMet.size() && updates; ++v) {
+    if (isMet[v] || mesh->roles[v] == FaceMesh::Role::None) continue;
+    mesh->roles[v] = FaceMesh::Role::None;
+    mesh->unused.push_back(v);
+  }
   std::vector<uint32_t> corners;
   for (uint32_t t = 0; t < band.triangleCount(); ++t) {
-    const uint32_t a = bandVertex[band.corners[3 * t]], b = bandVertex[band.corners[3 * t + 1]],
-                   c = bandVertex[band.corners[3 * t + 2]];
+    const uint32_t a = mesh->poles[band.corners[3 * t]], b = mesh->poles[band.corners[3 * t + 1]],
+                   c = mesh->poles[band.corners[3 * t + 2]];
     if (a != b && b != c && c != a) corners.insert(corners.end(), {a, b, c});
   }
   std::vector<uint32_t> twins, strips, starts;
-  findTwins(corners, uint32_t(mesh->positions.size()), work, twins);
-  makeStrips(corners, twins, work, strips, starts);
+  findTwins(corners, uint32_t(mesh->positions.size()), *work, twins);
+  makeStrips(corners, twins, *work, strips, starts);
   mesh->triangles.swap(quadTriangles);
   mesh->triangles.insert(mesh->triangles.end(), corners.begin(), corners.end());
   mesh->strips.swap(quadStrips), mesh->stripStarts.swap(quadStarts);
   const uint32_t first = uint32_t(mesh->strips.size());
   mesh->strips.insert(mesh->strips.end(), strips.begin(), strips.end());
   for (size_t i = 1; i < starts.size(); ++i) mesh->stripStarts.push_back(first + starts[i]);
-  if (!model.faces[face].isReversed) return;
-  for (size_t i = 0; i < mesh->triangles.size(); i += 3)
-    std::swap(mesh->triangles[i + 1], mesh->triangles[i + 2]);
-  for (Vec3& n : mesh->normals) n = -n;
-  // A strip turned round: backwards if it has an odd number of indices, else with its first one twice.
-  std::vector<uint32_t> turned, turnedStarts = {0};
-  for (size_t s = 0; s + 1 < mesh->stripStarts.size(); ++s) {
-    const uint32_t from = mesh->stripStarts[s], to = mesh->stripStarts[s + 1];
-    if ((to - from) % 2 == 1) {
-      for (uint32_t i = to; i > from; --i) turned.push_back(mesh->strips[i - 1]);
-    } else {
-      turned.push_back(mesh->strips[from]);
-      turned.insert(turned.end(), mesh->strips.begin() + from, mesh->strips.begin() + to);
-    }
-    turnedStarts.push_back(uint32_t(turned.size()));
-  }
-  mesh->strips.swap(turned), mesh->stripStarts.swap(turnedStarts);
+  if (model.faces[face].isReversed) turnRound(*mesh);
 }
 
 FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& density,
-                            Density::Lines& lines, double tolerance, FaceMesh& mesh) {
+                            Density::Lines& lines, double tolerance, bool updates, Work& work,
+                            FaceMesh& mesh) {
   State& s = *state_;
+  s.work = &work;
   s.density = &density, s.tolerance = tolerance;
+  s.updates = updates && !mesh.band.empty();
   s.begin(face, samples, mesh);
+  mesh.deviation = 0;
   const auto positive = [](double x) { return x > 0 && std::isfinite(x) ? x : 1; };
   std::vector<double> us, vs;
   density.u.lines(lines.u, us), density.v.lines(lines.v, vs);
   s.origin = {us[0], vs[0]}, s.scale = {positive(density.speedU()), positive(density.speedV())};
   for (size_t i = 0; i < s.rings.at.size(); ++i) s.rings.at[i] = s.scaled(s.rings.uvs[i]);
-  FaceProblem ended;
-  ended.kind = FaceProblem::Kind::Ended;
-  if (!s.meshGrid(lines)) return ended;
-  const FaceProblem problem = s.triangulateBand();
-  if (problem.kind != FaceProblem::Kind::None) return problem;
-  if (!s.refineBand()) return ended;
-  s.finish();
-  return s.work.going() ? FaceProblem{} : ended;
+  FaceProblem problem;
+  problem.kind = FaceProblem::Kind::Ended;
+  if (s.meshGrid(lines)) {
+    s.makeIslands();
+    problem = {};
+    if (!s.updates || !s.patchBand()) problem = s.triangulateBand();
+    if (problem.kind == FaceProblem::Kind::None) {
+      if (s.refineBand()) s.finish();
+      if (!work.going()) problem.kind = FaceProblem::Kind::Ended;
+    }
+  }
+  if (problem.kind != FaceProblem::Kind::None) mesh = {};
+  return problem;
 }
 
 }  // namespace sf

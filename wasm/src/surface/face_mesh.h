@@ -15,15 +15,32 @@
 
 namespace sf {
 
+/// Vertices have numbers that last: in an update each vertex that is still there keeps its own, and those of others are given
+/// to new ones.
 struct FaceMesh {
-  std::vector<Vec3> positions, normals;  // unit normals, on the face's side
+  enum class Role : uint8_t { None, Edge, Grid, Added };
+  std::vector<Vec3> positions, normals;  // unit normals, on the surface's side
   std::vector<Point2> uvs;
-  uint32_t edgeVertices = 0;        // the first vertices, which are samples of edges
+  std::vector<Role> roles;          // None: a number that no vertex has now
+  std::vector<uint32_t> unused;     // these numbers
   std::vector<uint32_t> triangles;  // [3m] counter-clockwise seen from where normals point
   std::vector<uint32_t> strips, stripStarts;
   // For each use, vertices from where the loop enters it to where it leaves it.
   std::vector<uint32_t> useVertices, useStarts;
   double deviation = 0;  // largest measured
+
+  // What the next update begins with.
+  std::vector<double> us, vs;
+  struct Strip {
+    bool rises;  // which diagonal its quads have: from the lower left, or from the upper left
+    double off;  // their largest deviation
+  };
+  std::vector<Strip> gridStrips;
+  // Corners of the polygon that are one vertex in space, at a pole, are several here; `pole` names the vertex.
+  std::vector<uint32_t> poles;   // [vertices] itself, or that vertex
+  std::vector<uint32_t> band;    // [3b] triangles between grid and trimming curves
+  std::vector<double> bandOff;   // [b] their largest deviation
+  std::vector<uint32_t> border;  // vertices that are on the band's border or islands in it
 };
 
 /// The samples of all edges of a model.
@@ -45,16 +62,18 @@ struct FaceProblem {
 
 class FaceMesher {
  public:
-  FaceMesher(const Model& model, Work& work);
+  explicit FaceMesher(const Model& model);
   ~FaceMesher();
 
   /// Meshes a face. `lines` may be refined where the grid is measured to be off.
   ///   tolerance  most distance of mesh and surface
+  ///   mesh       with `updates` that of an earlier run, of which whatever still fits stays; after a problem it is empty
   FaceProblem run(uint32_t face, const EdgeSamples& samples, Density& density,
-                  Density::Lines& lines, double tolerance, FaceMesh& mesh);
+                  Density::Lines& lines, double tolerance, bool updates, Work& work,
+                  FaceMesh& mesh);
 
   /// Only whether the rings of a face are those of a polygon.
-  FaceProblem check(uint32_t face, const EdgeSamples& samples);
+  FaceProblem check(uint32_t face, const EdgeSamples& samples, Work& work);
 
  private:
   struct State;

@@ -90,6 +90,11 @@ bool findFault(const CurveArrays& c, SurfaceFault& fault) {
   return findFault({c.degree, c.knots}, c.poles, fault) || findFault(c.at, c.weights, fault);
 }
 
+/// Into how many pieces a use's curve is cut to be looked at.
+uint32_t piecesOf(const ModelUse& use) {
+  return std::min(4 * (use.curve.curve().spans().count() + 1), 4000u);
+}
+
 /// The model under way, and what is found wrong with it.
 class ModelReader {
  public:
@@ -184,7 +189,11 @@ void ModelReader::readFace(ModelFace& face, uint32_t number) {
   if (findFault(u, polesU, fault) || findFault(v, polesV, fault) || findFault(at, weights, fault)) {
     fail(fault, number);
   } else {
-    face.surface = std::make_unique<NurbsSurface>(NurbsSurfaceView{u, v, at, weights});
+    const auto copy = [](ArrayView<const double> a) {
+      return std::vector<double>(a.begin(), a.end());
+    };
+    face.arrays = {degreeU, degreeV, copy(u.knots), copy(v.knots), copy(at), copy(weights)};
+    face.surface = std::make_unique<NurbsSurface>(face.arrays.surface());
     Vec3 &low = lows_[number], &high = highs_[number];
     low = high = {at[0], at[1], at[2]};
     for (size_t i = 3; i < at.size(); i += 3)
@@ -235,7 +244,11 @@ void ModelReader::readUse(ModelUse& use, uint32_t place, uint32_t loopInFace) {
   if (!(std::fabs(domain[0] - e.from) <= slack && std::fabs(domain[1] - e.to) <= slack &&
         knots.from() <= e.from + slack && knots.to() >= e.to - slack))
     return fail(SurfaceFault::BadDomain);
-  use.curve = TrimCurve(NurbsCurveView{knots, 2, c.at, c.weights});
+  const auto copy = [](ArrayView<const double> a) {
+    return std::vector<double>(a.begin(), a.end());
+  };
+  use.arrays = {c.degree, 0, copy(c.knots), {}, copy(c.at), copy(c.weights)};
+  use.curve = TrimCurve(use.arrays.curve());
 }
 
 bool ModelReader::read() {
@@ -321,19 +334,14 @@ bool ModelReader::checkUse(uint32_t number) {
   ModelUse& use = m_.uses[number];
   if (!use.curve.isFound()) return failUse(SurfaceFault::EdgeApart, number), false;
   const ModelEdge& edge = m_.edges[use.edge];
+  if (!staysInDomain(m_, number)) return failUse(SurfaceFault::TrimOutside, number), false;
   const BezierSpans &u = m_.faces[use.face].surface->u(), &v = m_.faces[use.face].surface->v();
-  const double u0 = u.breaks()[0], u1 = u.breaks()[u.count()], v0 = v.breaks()[0],
-               v1 = v.breaks()[v.count()];
-  const double slackU = kDomainSlack * (u1 - u0), slackV = kDomainSlack * (v1 - v0);
   const double slack = edge.tolerance + kSpaceSlack * m_.diagonal();
   const Vec3 first = onSurface(use, use.curve.at(edge.from));
-  const uint32_t pieces = std::min(4 * (use.curve.curve().spans().count() + 1), 4000u);
-  for (uint32_t i = 0; i <= pieces; ++i) {
+  const uint32_t pieces = edge.curve || edge.isDegenerate ? piecesOf(use) : 0;
+  for (uint32_t i = 0; i <= pieces && pieces > 0; ++i) {
     const double t = edge.from + (edge.to - edge.from) * i / pieces;
     const Point2 p = use.curve.at(t);
-    if (p.x < u0 - slackU || p.x > u1 + slackU || p.y < v0 - slackV || p.y > v1 + slackV)
-      return failUse(SurfaceFault::TrimOutside, number), false;
-    if (!edge.curve && !edge.isDegenerate) continue;
     const Vec3 other = edge.isDegenerate ? first : edge.curve->at(t).at;
     if (!(distance(onSurface(use, p), other) <= slack))
       return failUse(SurfaceFault::EdgeApart, number), false;
@@ -347,8 +355,8 @@ bool ModelReader::checkUse(uint32_t number) {
   const ModelEdge& edgeAfter = m_.edges[after.edge];
   const Point2 end = use.curve.at(use.isReversed ? edge.from : edge.to);
   const Point2 begin = after.curve.at(after.isReversed ? edgeAfter.to : edgeAfter.from);
-  const double gap =
-      std::max(std::fabs(end.x - begin.x) / (u1 - u0), std::fabs(end.y - begin.y) / (v1 - v0));
+  const double gap = std::max(std::fabs(end.x - begin.x) / (u.breaks()[u.count()] - u.breaks()[0]),
+                              std::fabs(end.y - begin.y) / (v.breaks()[v.count()] - v.breaks()[0]));
   const double apart = distance(onSurface(use, end), onSurface(use, begin));
   if (gap > kDomainSlack && (gap > kLargestGap || apart > slack + edgeAfter.tolerance))
     return failUse(SurfaceFault::TrimOpen, number), false;
@@ -423,6 +431,23 @@ void ModelReader::unite() {
 }
 
 }  // namespace
+
+bool staysInDomain(const Model& model, uint32_t number) {
+  const ModelUse& use = model.uses[number];
+  const ModelEdge& edge = model.edges[use.edge];
+  const NurbsSurface& surface = *model.faces[use.face].surface;
+  const auto isWithin = [](const BezierSpans& spans, double x) {
+    const double from = spans.breaks()[0], to = spans.breaks()[spans.count()];
+    const double slack = kDomainSlack * (to - from);
+    return x >= from - slack && x <= to + slack;
+  };
+  const uint32_t pieces = piecesOf(use);
+  for (uint32_t i = 0; i <= pieces; ++i) {
+    const Point2 p = use.curve.at(edge.from + (edge.to - edge.from) * i / pieces);
+    if (!isWithin(surface.u(), p.x) || !isWithin(surface.v(), p.y)) return false;
+  }
+  return true;
+}
 
 bool readModel(const ModelArrays& arrays, Work& work, Charge& charge, Model& model,
                std::vector<ModelFault>& faults) {

@@ -44,12 +44,24 @@ struct ModelEdge {
   uint32_t fromVertex = kNone, toVertex = kNone;
 };
 
+/// The arrays of a spline that can be edited.
+struct SplineArrays {
+  uint32_t degreeU = 0, degreeV = 0;  // of a curve: degreeU
+  std::vector<double> knotsU, knotsV, poles, weights;
+
+  NurbsSurfaceView surface() const {
+    return {{degreeU, knotsU}, {degreeV, knotsV}, poles, weights};
+  }
+  NurbsCurveView curve() const { return {{degreeU, knotsU}, 2, poles, weights}; }
+};
+
 /// An edge in a loop of a face.
 struct ModelUse {
   uint32_t edge = kNone, face = kNone, loop = kNone;  // loop counted through all faces
   bool isReversed = false;  // the loop runs from the edge's `to` to its `from`
   bool isSeam = false;
-  TrimCurve curve;  // in the domain, by the edge's parameter
+  TrimCurve curve;      // in the domain, by the edge's parameter
+  SplineArrays arrays;  // of it; empty if it was found, or made around a domain
 };
 
 struct ModelLoop {
@@ -59,6 +71,7 @@ struct ModelLoop {
 
 struct ModelFace {
   std::unique_ptr<NurbsSurface> surface;
+  SplineArrays arrays;      // of it
   bool isReversed = false;  // its normal is -(Su x Sv)
   bool isLeftOut = false;   // faulty: it has no part in anything
   bool isSuspect = false;   // its fault is named, and a better one may be found once it is sampled
@@ -94,7 +107,14 @@ struct Model {
     const ModelLoop& loop = loops[uses[use].loop];
     return use + 1 == loop.endUse ? loop.firstUse : use + 1;
   }
+  uint32_t before(uint32_t use) const {
+    const ModelLoop& loop = loops[uses[use].loop];
+    return use == loop.firstUse ? loop.endUse - 1 : use - 1;
+  }
 };
+
+/// Whether a use's curve stays in the domain of its face, nearly.
+bool staysInDomain(const Model& model, uint32_t use);
 
 /// Reads a model. Faces with faults are left out, and named. A face without loops gets one around its domain, whose edges
 /// are new ones after those given; they are shared where the surface closes, and degenerate where it has a pole.

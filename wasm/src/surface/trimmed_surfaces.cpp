@@ -8,6 +8,8 @@ namespace {
 
 /// The sampling at which loops are checked when a model is opened, in its diagonal.
 constexpr double kCheckTolerance = 1e-3;
+/// Room for faces to grow, as a share of what they have.
+constexpr double kSlack = 0.5;
 
 Box2 boxOf(const Model& model, uint32_t face, const EdgeSamples& samples) {
   const BezierSpans &u = model.faces[face].surface->u(), &v = model.faces[face].surface->v();
@@ -43,13 +45,18 @@ void TrimmedSurfaces::numberPlaces() {
   samples_.places = next;
 }
 
-void TrimmedSurfaces::selectEdge(uint32_t edge, const Fineness& fineness) {
+/// Chooses the samples of an edge. Whether they are others than before.
+bool TrimmedSurfaces::selectEdge(uint32_t edge, const Fineness& fineness) {
   std::vector<EdgeSample>& of = samples_.of[edge];
-  of.clear();
+  std::vector<EdgeSample> before;
+  before.swap(of);
   trees_[edge]->select(fineness, longest_[edge], of);
   // Bit by bit the same for all edges that end there.
   of.front().at = vertexAt_[model_.edges[edge].fromVertex];
   of.back().at = vertexAt_[model_.edges[edge].toVertex];
+  return !std::equal(
+      of.begin(), of.end(), before.begin(), before.end(),
+      [](const EdgeSample& a, const EdgeSample& b) { return a.t == b.t && a.at == b.at; });
 }
 
 /// Halves the intervals at fault. False if that cannot help: the face is to be left out.
@@ -118,6 +125,12 @@ void TrimmedSurfaces::leaveOut(uint32_t face, const ModelFault& fault) {
   faults_.push_back(fault);
 }
 
+void TrimmedSurfaces::plantTree(uint32_t edge) {
+  const uint32_t first = firstUses_[edge], end = firstUses_[edge + 1];
+  trees_[edge] = std::make_unique<EdgeTree>(
+      model_, edge, ArrayView<const uint32_t>(usesOf_.data() + first, end - first));
+}
+
 std::unique_ptr<TrimmedSurfaces> TrimmedSurfaces::open(Model&& model, Work& work, Charge& charge,
                                                        std::vector<ModelFault>& faults) {
   (void)charge;
@@ -129,6 +142,10 @@ std::unique_ptr<TrimmedSurfaces> TrimmedSurfaces::open(Model&& model, Work& work
   s.longest_.assign(edges, Sampling::kNoLimit);
   s.vertexAt_.resize(m.vertices);
   s.densities_.resize(faces), s.lines_.resize(faces), s.meshes_.resize(faces);
+  s.chosen_.resize(faces), s.chosenFor_.assign(faces, 0), s.tolerances_.assign(faces, 0);
+  s.isChanged_.assign(faces, 0), s.isEdited_.assign(faces, 0);
+  for (const ModelFace& face : m.faces) s.isReversed_.push_back(face.isReversed);
+  s.mesher_ = std::make_unique<FaceMesher>(m);
   // The uses of each edge, in faces that are there.
   s.firstUses_.assign(edges + 1, 0);
   const auto counts = [&](const ModelUse& use) { return !m.faces[use.face].isLeftOut; };
@@ -142,10 +159,7 @@ std::unique_ptr<TrimmedSurfaces> TrimmedSurfaces::open(Model&& model, Work& work
   std::vector<uint8_t> isPlaced(m.vertices, 0);
   for (uint32_t e = 0; e < edges; ++e) {
     if (s.firstUses_[e] == s.firstUses_[e + 1]) continue;
-    s.trees_[e] = std::make_unique<EdgeTree>(
-        m, e,
-        ArrayView<const uint32_t>(s.usesOf_.data() + s.firstUses_[e],
-                                  s.firstUses_[e + 1] - s.firstUses_[e]));
+    s.plantTree(e);
     const ModelEdge& edge = m.edges[e];
     for (const uint32_t v : {edge.fromVertex, edge.toVertex}) {
       if (isPlaced[v]) continue;
@@ -160,14 +174,13 @@ std::unique_ptr<TrimmedSurfaces> TrimmedSurfaces::open(Model&& model, Work& work
   for (uint32_t e = 0; e < edges; ++e)
     if (s.trees_[e]) s.selectEdge(e, fineness);
   s.numberPlaces();
-  FaceMesher mesher(m, work);
   std::vector<uint32_t> open;
   for (uint32_t f = uint32_t(faces); f-- > 0;)
     if (!m.faces[f].isLeftOut) open.push_back(f);
   std::vector<uint32_t> touched;
   while (!open.empty() && work.going()) {
     const uint32_t f = open.back();
-    const FaceProblem problem = mesher.check(f, s.samples_);
+    const FaceProblem problem = s.mesher_->check(f, s.samples_, work);
     if (problem.kind == FaceProblem::Kind::Ended) return nullptr;
     if (problem.kind == FaceProblem::Kind::None) {
       open.pop_back();
@@ -200,23 +213,46 @@ std::unique_ptr<TrimmedSurfaces> TrimmedSurfaces::open(Model&& model, Work& work
   return opened;
 }
 
-void TrimmedSurfaces::chooseLines(uint32_t face, const Fineness& fineness, double& tolerance) {
-  const Density& density = densities_[face];
-  const Vec3 center = 0.5 * (density.least + density.greatest);
-  tolerance = fineness.tolerance(center, 0.55 * distance(density.least, density.greatest));
-  densities_[face].choose(tolerance, fineness, lines_[face]);
-}
-
-bool TrimmedSurfaces::meshAll(const Sampling& sampling, Work& work) {
-  const Fineness fineness(sampling);
+/// Chooses the lines of all faces and the samples of all edges, and marks the faces that change.
+void TrimmedSurfaces::chooseAll(const Sampling& sampling, const Fineness& fineness, bool updates) {
   const uint32_t faces = uint32_t(model_.faces.size()), edges = uint32_t(model_.edges.size());
-  std::vector<double> tolerances(faces, 0);
   std::fill(longest_.begin(), longest_.end(), Sampling::kNoLimit);
+  const auto sameNodes = [](const LineTree::Choice& a, const LineTree::Choice& b) {
+    return a.nodes == b.nodes;
+  };
   for (uint32_t f = 0; f < faces; ++f) {
-    if (model_.faces[f].isLeftOut) continue;
-    chooseLines(f, fineness, tolerances[f]);
+    isChanged_[f] = !updates;
+    if (model_.faces[f].isLeftOut) {
+      isChanged_[f] = 0;
+      continue;
+    }
+    Density& density = densities_[f];
+    const Vec3 center = 0.5 * (density.least + density.greatest);
+    const double tolerance =
+        fineness.tolerance(center, 0.55 * distance(density.least, density.greatest));
+    // While a camera moves, lines are chosen for a little less than is allowed, and stay for as long as they are then not
+    // much too many.
+    const bool isLazy = updates && sampling.camera != nullptr;
+    const double factor = sampling.hysteresis * sampling.hysteresis;
+    const bool stays = isLazy && chosenFor_[f] <= tolerance &&
+                       chosenFor_[f] >= factor * tolerance && meshes_[f].deviation <= tolerance;
+    if (!stays) {
+      const double target =
+          isLazy && tolerance < Sampling::kNoLimit ? sampling.hysteresis * tolerance : tolerance;
+      Density::Lines lines;
+      density.choose(target, fineness, lines);
+      const bool isSame =
+          updates && sameNodes(lines.u, chosen_[f].u) && sameNodes(lines.v, chosen_[f].v);
+      if (!isSame) {
+        chosen_[f] = lines, lines_[f] = lines;
+        isChanged_[f] = 1;
+      } else if (meshes_[f].deviation > tolerance || isEdited_[f]) {
+        isChanged_[f] = 1;
+      }
+      chosenFor_[f] = target, tolerances_[f] = tolerance;
+    }
     if (sampling.aspect == Sampling::kNoLimit) continue;
-    const double longest = densities_[f].longest(lines_[f]);
+    const double longest = density.longest(chosen_[f]);
     for (uint32_t l = model_.faces[f].firstLoop; l < model_.faces[f].endLoop; ++l)
       for (uint32_t u = model_.loops[l].firstUse; u < model_.loops[l].endUse; ++u) {
         double& of = longest_[model_.uses[u].edge];
@@ -224,23 +260,33 @@ bool TrimmedSurfaces::meshAll(const Sampling& sampling, Work& work) {
       }
   }
   for (uint32_t e = 0; e < edges; ++e)
-    if (trees_[e]) selectEdge(e, fineness);
+    if (trees_[e] && selectEdge(e, fineness))
+      for (uint32_t i = firstUses_[e]; i < firstUses_[e + 1]; ++i) {
+        const uint32_t f = model_.uses[usesOf_[i]].face;
+        isChanged_[f] = !model_.faces[f].isLeftOut;
+      }
   numberPlaces();
-  FaceMesher mesher(model_, work);
+}
+
+/// Meshes the faces that change.
+bool TrimmedSurfaces::meshFaces(const Sampling& sampling, bool updates, Work& work) {
+  const Fineness fineness(sampling);
+  chooseAll(sampling, fineness, updates);
+  const uint32_t faces = uint32_t(model_.faces.size());
   std::vector<uint32_t> open;
-  std::vector<uint8_t> isOpen(faces, 0);
+  std::vector<uint8_t> isOpen(isChanged_);
   for (uint32_t f = faces; f-- > 0;)
-    if (!model_.faces[f].isLeftOut) open.push_back(f), isOpen[f] = 1;
+    if (isChanged_[f]) open.push_back(f);
   const double total = double(open.size());
   size_t done = 0;
   std::vector<uint32_t> touched;
   while (!open.empty()) {
     const uint32_t f = open.back();
-    const FaceProblem problem =
-        mesher.run(f, samples_, densities_[f], lines_[f], tolerances[f], meshes_[f]);
+    const FaceProblem problem = mesher_->run(f, samples_, densities_[f], lines_[f], tolerances_[f],
+                                             updates, work, meshes_[f]);
     if (problem.kind == FaceProblem::Kind::Ended) return false;
     if (problem.kind == FaceProblem::Kind::None) {
-      open.pop_back(), isOpen[f] = 0;
+      open.pop_back(), isOpen[f] = 0, isEdited_[f] = 0;
       work.setFraction(double(++done) / total);
       if (!work.tick(1000)) return false;
       continue;
@@ -254,11 +300,10 @@ bool TrimmedSurfaces::meshAll(const Sampling& sampling, Work& work) {
         for (uint32_t i = firstUses_[e]; i < firstUses_[e + 1]; ++i) {
           const uint32_t other = model_.uses[usesOf_[i]].face;
           if (isOpen[other] || model_.faces[other].isLeftOut) continue;
-          isOpen[other] = 1;
+          isOpen[other] = isChanged_[other] = 1;
           open.insert(open.begin(), other);
         }
       }
-      // Places are renumbered, so faces that are done refer to old ones: they are found by edge when all is put together.
       numberPlaces();
     } else {
       leaveOut(f, fault);
@@ -268,34 +313,14 @@ bool TrimmedSurfaces::meshAll(const Sampling& sampling, Work& work) {
   return true;
 }
 
-void TrimmedSurfaces::assemble(Tessellation& result) const {
-  const uint32_t faces = uint32_t(model_.faces.size());
-  size_t vertices = 0, corners = 0, indices = 0;
-  for (const FaceMesh& mesh : meshes_)
-    vertices += mesh.positions.size(), corners += mesh.triangles.size(),
-        indices += mesh.strips.size();
-  result.positions.resize(3 * vertices), result.normals.resize(3 * vertices);
-  result.uvs.resize(2 * vertices), result.same.resize(vertices);
-  result.triangles.resize(corners), result.strips.resize(indices);
-  result.faceStarts.assign(1, 0), result.stripStarts.assign(1, 0);
-  result.origin = 0.5 * (model_.least + model_.greatest);
-  std::vector<uint32_t> firstAt(samples_.places, kNone), bases(faces);
-  uint32_t base = 0;
-  size_t corner = 0, index = 0;
-  for (uint32_t f = 0; f < faces; ++f) {
+/// The first vertex at the place of each, and the vertices along edges.
+void TrimmedSurfaces::findSame(Tessellation& result) const {
+  const std::vector<uint32_t>& bases = layout_.vertexStarts;
+  result.same.resize(bases.back());
+  for (uint32_t v = 0; v < bases.back(); ++v) result.same[v] = v;
+  std::vector<uint32_t> firstAt(samples_.places, kNone);
+  for (uint32_t f = 0; f < meshes_.size(); ++f) {
     const FaceMesh& mesh = meshes_[f];
-    bases[f] = base;
-    for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
-      const Vec3 p = mesh.positions[v] - result.origin, n = mesh.normals[v];
-      const size_t at = size_t(base) + v;
-      result.positions[3 * at] = float(p.x), result.positions[3 * at + 1] = float(p.y);
-      result.positions[3 * at + 2] = float(p.z);
-      result.normals[3 * at] = float(n.x), result.normals[3 * at + 1] = float(n.y);
-      result.normals[3 * at + 2] = float(n.z);
-      result.uvs[2 * at] = float(mesh.uvs[v].x), result.uvs[2 * at + 1] = float(mesh.uvs[v].y);
-      result.same[at] = uint32_t(at);
-    }
-    // Vertices on edges: the first one of the same sample.
     for (size_t k = 0; k + 1 < mesh.useStarts.size(); ++k) {
       const ModelUse& use = model_.uses[model_.loops[model_.faces[f].firstLoop].firstUse + k];
       const ModelEdge& edge = model_.edges[use.edge];
@@ -305,29 +330,34 @@ void TrimmedSurfaces::assemble(Tessellation& result) const {
         const uint32_t place = s == 0           ? edge.fromVertex
                                : s + 1 == count ? edge.toVertex
                                                 : samples_.firstPlace[use.edge] + s - 1;
-        const uint32_t v = base + mesh.useVertices[mesh.useStarts[k] + i];
-        if (firstAt[place] == kNone) firstAt[place] = v;
-        result.same[v] = firstAt[place];
+        const uint32_t v = bases[f] + mesh.useVertices[mesh.useStarts[k] + i];
+        firstAt[place] = std::min(firstAt[place], v);
       }
     }
-    for (const uint32_t v : mesh.triangles) result.triangles[corner++] = base + v;
-    for (const uint32_t v : mesh.strips) result.strips[index++] = base + v;
-    result.faceStarts.push_back(uint32_t(corner / 3));
-    const uint32_t firstStrip = result.stripStarts.back();
-    for (size_t s = 1; s < mesh.stripStarts.size(); ++s)
-      result.stripStarts.push_back(firstStrip + mesh.stripStarts[s]);
-    result.deviation = std::max(result.deviation, mesh.deviation);
-    base += uint32_t(mesh.positions.size());
+  }
+  for (uint32_t f = 0; f < meshes_.size(); ++f) {
+    const FaceMesh& mesh = meshes_[f];
+    for (size_t k = 0; k + 1 < mesh.useStarts.size(); ++k) {
+      const ModelUse& use = model_.uses[model_.loops[model_.faces[f].firstLoop].firstUse + k];
+      const ModelEdge& edge = model_.edges[use.edge];
+      const uint32_t count = mesh.useStarts[k + 1] - mesh.useStarts[k];
+      for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t s = use.isReversed ? count - 1 - i : i;
+        const uint32_t place = s == 0           ? edge.fromVertex
+                               : s + 1 == count ? edge.toVertex
+                                                : samples_.firstPlace[use.edge] + s - 1;
+        result.same[bases[f] + mesh.useVertices[mesh.useStarts[k] + i]] = firstAt[place];
+      }
+    }
   }
   // Edges: along the first use that is there.
-  result.edgeStarts.assign(1, 0);
+  result.edges.clear(), result.edgeStarts.assign(1, 0);
   for (uint32_t e = 0; e < model_.edges.size(); ++e) {
     for (uint32_t i = firstUses_[e]; i < firstUses_[e + 1] && !model_.edges[e].isDegenerate; ++i) {
       const ModelUse& use = model_.uses[usesOf_[i]];
-      if (model_.faces[use.face].isLeftOut) continue;
       const FaceMesh& mesh = meshes_[use.face];
-      const uint32_t first = model_.loops[model_.faces[use.face].firstLoop].firstUse;
-      const uint32_t k = usesOf_[i] - first;
+      if (mesh.useStarts.empty()) continue;
+      const uint32_t k = usesOf_[i] - model_.loops[model_.faces[use.face].firstLoop].firstUse;
       for (uint32_t v = mesh.useStarts[k]; v < mesh.useStarts[k + 1]; ++v)
         result.edges.push_back(bases[use.face] + mesh.useVertices[v]);
       break;
@@ -336,29 +366,34 @@ void TrimmedSurfaces::assemble(Tessellation& result) const {
   }
 }
 
-bool TrimmedSurfaces::tessellate(const Sampling& given, const TessellationLimits& limits,
-                                 Work& work, Tessellation& result) {
-  Sampling sampling = given;
-  if (limits.maxSeconds < Sampling::kNoLimit) work.limitStage(limits.maxSeconds, limits.clock);
-  bool isDone = meshAll(sampling, work);
+/// Meshes with a tolerance that is raised until there are few enough triangles.
+///   factor  out: by how much
+bool TrimmedSurfaces::fewEnough(const Sampling& given, const TessellationLimits& limits,
+                                bool updates, Work& work, Sampling& used, double& factor) {
+  used = given, factor = 1;
   const auto triangles = [&] {
     size_t corners = 0;
     for (const FaceMesh& mesh : meshes_) corners += mesh.triangles.size();
     return double(corners) / 3;
   };
-  // Few enough triangles: errors fall with the square of lengths, so about with their number.
-  double factor = 1;
+  bool isDone = meshFaces(used, updates, work);
+  // Errors fall with the square of lengths, so about with the number of triangles.
   for (int k = 0; isDone && triangles() > limits.maxTriangles && k < 40; ++k) {
     factor *= std::max(1.15, triangles() / limits.maxTriangles);
-    sampling.tolerance = given.tolerance * factor, sampling.pixels = given.pixels * factor;
-    sampling.angle = given.angle * factor, sampling.aspect = given.aspect * std::sqrt(factor);
-    isDone = meshAll(sampling, work);
+    used.tolerance = given.tolerance * factor, used.pixels = given.pixels * factor;
+    used.angle = given.angle * factor, used.aspect = given.aspect * std::sqrt(factor);
+    isDone = meshFaces(used, false, work);
   }
-  const bool isOver = work.endStage();
-  if (!isDone && !isOver) return false;
-  result = {};
+  return isDone;
+}
+
+void TrimmedSurfaces::tell(const Sampling& sampling, double factor, bool isOver,
+                           Tessellation& result) const {
+  result.origin = 0.5 * (model_.least + model_.greatest);
   result.tolerance = sampling.tolerance;
-  assemble(result);
+  findSame(result);
+  for (const FaceMesh& mesh : meshes_)
+    result.deviation = std::max(result.deviation, mesh.deviation);
   for (const ModelFault& fault : faults_)
     result.reports.push_back({SurfaceReport::LeftOut, fault.face, uint32_t(fault.fault), 0});
   uint32_t forced = 0;
@@ -367,11 +402,194 @@ bool TrimmedSurfaces::tessellate(const Sampling& given, const TessellationLimits
     result.reports.push_back({SurfaceReport::CrossingSamples, kNone, kNone, double(forced)});
   if (factor > 1)
     result.reports.push_back({SurfaceReport::ToleranceRaised, kNone, kNone, sampling.tolerance});
-  for (uint32_t f = 0; f < meshes_.size() && !sampling.camera; ++f)
-    if (meshes_[f].deviation > sampling.tolerance)
+  for (uint32_t f = 0; f < meshes_.size(); ++f)
+    if (meshes_[f].deviation > tolerances_[f])
       result.reports.push_back({SurfaceReport::AboveTolerance, f, kNone, meshes_[f].deviation});
   if (isOver) result.reports.push_back({SurfaceReport::TimeOver, kNone, kNone, 0});
+}
+
+bool TrimmedSurfaces::tessellate(const Sampling& given, const TessellationLimits& limits,
+                                 Work& work, Tessellation& result) {
+  if (limits.maxSeconds < Sampling::kNoLimit) work.limitStage(limits.maxSeconds, limits.clock);
+  Sampling used;
+  double factor;
+  isMeshed_ = false;
+  for (FaceMesh& mesh : meshes_) mesh = {};
+  const bool isDone = fewEnough(given, limits, false, work, used, factor);
+  const bool isOver = work.endStage();
+  if (!isDone && !isOver) return false;
+  result = {};
+  isMeshed_ = isDone;
+  layout_.layOut(meshes_, isReversed_, 0.5 * (model_.least + model_.greatest), 0);
+  for (uint32_t f = 0; f < meshes_.size(); ++f) result.faces.push_back(f);
+  tell(used, factor, isOver, result);
   return true;
+}
+
+bool TrimmedSurfaces::update(const Sampling& given, const TessellationLimits& limits, Work& work,
+                             Tessellation& result) {
+  if (!isMeshed_) return tessellate(given, limits, work, result);
+  if (limits.maxSeconds < Sampling::kNoLimit) work.limitStage(limits.maxSeconds, limits.clock);
+  Sampling used;
+  double factor;
+  isMeshed_ = false;
+  const bool isDone = fewEnough(given, limits, true, work, used, factor);
+  const bool isOver = work.endStage();
+  if (!isDone && !isOver) return false;
+  result = {};
+  isMeshed_ = isDone;
+  for (uint32_t f = 0; f < meshes_.size(); ++f)
+    if (isChanged_[f]) result.faces.push_back(f);
+  if (!layout_.rewrite(meshes_, isReversed_, result.faces))
+    layout_.layOut(meshes_, isReversed_, 0.5 * (model_.least + model_.greatest), kSlack);
+  tell(used, factor, isOver, result);
+  return true;
+}
+
+std::vector<uint32_t> TrimmedSurfaces::edgesOf(uint32_t face) const {
+  std::vector<uint32_t> edges;
+  for (uint32_t l = model_.faces[face].firstLoop; l < model_.faces[face].endLoop; ++l)
+    for (uint32_t u = model_.loops[l].firstUse; u < model_.loops[l].endUse; ++u)
+      edges.push_back(model_.uses[u].edge);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+/// Whether no other face has an edge, nor its ends.
+bool TrimmedSurfaces::isAlone(uint32_t edge, uint32_t face) const {
+  for (uint32_t i = firstUses_[edge]; i < firstUses_[edge + 1]; ++i)
+    if (model_.uses[usesOf_[i]].face != face) return false;
+  return true;
+}
+
+/// Begins edges of a face anew, where its surface and its curves have them now.
+void TrimmedSurfaces::replant(uint32_t face, ArrayView<const uint32_t> edges) {
+  for (const uint32_t e : edges) {
+    plantTree(e);
+    for (const int end : {0, 1})
+      vertexAt_[end == 0 ? model_.edges[e].fromVertex : model_.edges[e].toVertex] =
+          trees_[e]->end(end);
+    samples_.of[e].clear();
+  }
+  densities_[face] = Density(*model_.faces[face].surface, boxOf(model_, face, samples_));
+}
+
+/// Whether the loops of a face are still right, at the sampling of the first check.
+bool TrimmedSurfaces::checkAgain(uint32_t face, Work& work, ModelFault& fault) {
+  Sampling sampling;
+  sampling.tolerance = kCheckTolerance * model_.diagonal();
+  const Fineness fineness(sampling);
+  const std::vector<uint32_t> edges = edgesOf(face);
+  std::vector<std::vector<EdgeSample>> before;
+  for (const uint32_t e : edges) before.push_back(samples_.of[e]), selectEdge(e, fineness);
+  numberPlaces();
+  std::vector<uint32_t> touched;
+  bool isRight = false;
+  for (;;) {
+    const FaceProblem problem = mesher_->check(face, samples_, work);
+    isRight = problem.kind == FaceProblem::Kind::None;
+    if (problem.kind != FaceProblem::Kind::Crossing) break;
+    touched.clear();
+    if (!settle(face, problem, false, touched, fault)) break;
+    for (const uint32_t e : touched) selectEdge(e, fineness);
+    numberPlaces();
+  }
+  // With the samples of the check the box around the face is known.
+  if (isRight)
+    densities_[face] = Density(*model_.faces[face].surface, boxOf(model_, face, samples_));
+  for (size_t i = 0; i < edges.size(); ++i) samples_.of[edges[i]].swap(before[i]);
+  numberPlaces();
+  return isRight;
+}
+
+bool TrimmedSurfaces::movePole(uint32_t face, uint32_t pole, Vec3 to, double weight, Work& work,
+                               ModelFault& fault) {
+  ModelFace& f = model_.faces[face];
+  fault = {SurfaceFault::BadEdge, face, kNone, kNone, kNone, kNone};
+  const std::vector<uint32_t> edges = edgesOf(face);
+  for (const uint32_t e : edges)
+    if (!isAlone(e, face)) return fault.edge = e, false;
+  const SplineArrays before = f.arrays;
+  double* at = &f.arrays.poles[3 * size_t(pole)];
+  at[0] = to.x, at[1] = to.y, at[2] = to.z;
+  if (weight > 0) {
+    if (f.arrays.weights.empty()) f.arrays.weights.assign(f.arrays.poles.size() / 3, 1);
+    f.arrays.weights[pole] = weight;
+  }
+  // Loops lie in the domain, so they stay right.
+  f.surface = std::make_unique<NurbsSurface>(f.arrays.surface());
+  for (const uint32_t e : edges) model_.edges[e].curve = nullptr;
+  replant(face, edges);
+  if (!checkAgain(face, work, fault)) {
+    f.arrays = before;
+    f.surface = std::make_unique<NurbsSurface>(f.arrays.surface());
+    replant(face, edges);
+    return false;
+  }
+  meshes_[face] = {};
+  isEdited_[face] = 1;
+  return true;
+}
+
+bool TrimmedSurfaces::moveTrim(uint32_t face, uint32_t loop, uint32_t use, uint32_t pole, Point2 to,
+                               Work& work, ModelFault& fault) {
+  const uint32_t number = model_.loops[model_.faces[face].firstLoop + loop].firstUse + use;
+  fault = {SurfaceFault::BadEdge, face, loop, use, kNone, model_.uses[number].edge};
+  // Poles that have to move: this one, and at an end of the curve that of the neighbour that meets it there.
+  struct Move {
+    uint32_t use, pole;
+  };
+  std::vector<Move> moves = {{number, pole}};
+  const auto poleAt = [&](uint32_t u, uint32_t k) {
+    const std::vector<double>& poles = model_.uses[u].arrays.poles;
+    return Point2{poles[2 * size_t(k)], poles[2 * size_t(k) + 1]};
+  };
+  const auto lastOf = [&](uint32_t u) {
+    return uint32_t(model_.uses[u].arrays.poles.size() / 2) - 1;
+  };
+  for (const bool isLast : {false, true}) {
+    if (pole != (isLast ? lastOf(number) : 0)) continue;
+    const bool isAtEnd = isLast != model_.uses[number].isReversed;
+    const uint32_t other = isAtEnd ? model_.after(number) : model_.before(number);
+    if (model_.uses[other].arrays.poles.empty()) return false;
+    // The neighbour's pole that lies there: its first one, or its last.
+    const uint32_t k = isAtEnd != model_.uses[other].isReversed ? 0 : lastOf(other);
+    if (other == number && k == pole) continue;
+    const Point2 a = poleAt(number, pole), b = poleAt(other, k);
+    const BezierSpans& u = model_.faces[face].surface->u();
+    const double size = u.breaks()[u.count()] - u.breaks()[0];
+    if (std::hypot(a.x - b.x, a.y - b.y) < 1e-6 * size) moves.push_back({other, k});
+  }
+  std::vector<uint32_t> edges;
+  for (const Move& move : moves) {
+    const uint32_t e = model_.uses[move.use].edge;
+    // The face must be alone with the edge, and the edge be used once.
+    if (model_.uses[move.use].arrays.poles.empty() || firstUses_[e + 1] - firstUses_[e] != 1)
+      return fault.edge = e, false;
+    if (std::find(edges.begin(), edges.end(), e) == edges.end()) edges.push_back(e);
+  }
+  const auto set = [&](const Move& move, Point2 p) {
+    ModelUse& u = model_.uses[move.use];
+    u.arrays.poles[2 * size_t(move.pole)] = p.x, u.arrays.poles[2 * size_t(move.pole) + 1] = p.y;
+    u.curve = TrimCurve(u.arrays.curve());
+  };
+  std::vector<Point2> before;
+  for (const Move& move : moves) before.push_back(poleAt(move.use, move.pole)), set(move, to);
+  bool isRight = true;
+  for (const Move& move : moves)
+    if (!staysInDomain(model_, move.use)) fault.fault = SurfaceFault::TrimOutside, isRight = false;
+  std::vector<std::unique_ptr<NurbsCurve>> curves;
+  for (const uint32_t e : edges) curves.push_back(std::move(model_.edges[e].curve));
+  replant(face, edges);
+  if (isRight) isRight = checkAgain(face, work, fault);
+  if (!isRight) {
+    for (size_t i = 0; i < moves.size(); ++i) set(moves[i], before[i]);
+    for (size_t i = 0; i < edges.size(); ++i) model_.edges[edges[i]].curve = std::move(curves[i]);
+    replant(face, edges);
+  }
+  isEdited_[face] = 1;
+  return isRight;
 }
 
 }  // namespace sf

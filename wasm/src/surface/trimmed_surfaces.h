@@ -9,6 +9,7 @@
 #include "surface/density.h"
 #include "surface/edge_tree.h"
 #include "surface/face_mesh.h"
+#include "surface/mesh_layout.h"
 #include "surface/model.h"
 #include "surface/sampling.h"
 
@@ -27,10 +28,10 @@ struct Report {
   double value = 0;
 };
 
-/// The mesh of a model, in flat arrays.
+/// What is told of a mesh besides its layout.
 struct Tessellation {
-  std::vector<float> positions, normals, uvs;
-  std::vector<uint32_t> triangles, faceStarts, strips, stripStarts, edges, edgeStarts, same;
+  std::vector<uint32_t> edges, edgeStarts, same;
+  std::vector<uint32_t> faces;  // those that the call has changed
   std::vector<Report> reports;
   Vec3 origin{};
   double deviation = 0, tolerance = 0;
@@ -48,22 +49,44 @@ class TrimmedSurfaces {
   static std::unique_ptr<TrimmedSurfaces> open(Model&& model, Work& work, Charge& charge,
                                                std::vector<ModelFault>& faults);
 
-  /// False once the work has ended, but not by the limit of time.
+  /// Tessellates from scratch; the mesh is then in layout(). False once the work has ended, but not by the limit of time.
   bool tessellate(const Sampling& sampling, const TessellationLimits& limits, Work& work,
                   Tessellation& result);
+  /// Makes the mesh one of another sampling, from what there is. Vertices that stay keep their numbers, unless all is laid out
+  /// again, as when a face outgrows its block; the ranges of layout() tell.
+  bool update(const Sampling& sampling, const TessellationLimits& limits, Work& work,
+              Tessellation& result);
+  const MeshLayout& layout() const { return layout_; }
+
+  /// Moves a pole of a face's surface, or of the trimming curve of a use; the next update follows. Edges of the face, or that
+  /// edge, must be of this face alone: from then on they lie where the surface has them.
+  ///   weight   positive, or 0: stays
+  ///   fault    out: why it is refused; the model is then as before
+  bool movePole(uint32_t face, uint32_t pole, Vec3 to, double weight, Work& work,
+                ModelFault& fault);
+  bool moveTrim(uint32_t face, uint32_t loop, uint32_t use, uint32_t pole, Point2 to, Work& work,
+                ModelFault& fault);
 
   const Model& model() const { return model_; }
 
  private:
   explicit TrimmedSurfaces(Model&& model) : model_(std::move(model)) {}
-  void selectEdge(uint32_t edge, const Fineness& fineness);
-  void chooseLines(uint32_t face, const Fineness& fineness, double& tolerance);
+  bool selectEdge(uint32_t edge, const Fineness& fineness);
   bool settle(uint32_t face, const FaceProblem& problem, bool mayFreeze,
               std::vector<uint32_t>& touched, ModelFault& fault);
   void leaveOut(uint32_t face, const ModelFault& fault);
-  bool meshAll(const Sampling& sampling, Work& work);
-  void assemble(Tessellation& result) const;
+  bool meshFaces(const Sampling& sampling, bool updates, Work& work);
+  void chooseAll(const Sampling& sampling, const Fineness& fineness, bool updates);
+  bool fewEnough(const Sampling& given, const TessellationLimits& limits, bool updates, Work& work,
+                 Sampling& used, double& factor);
+  void tell(const Sampling& sampling, double factor, bool isOver, Tessellation& result) const;
+  void findSame(Tessellation& result) const;
   void numberPlaces();
+  void plantTree(uint32_t edge);
+  void replant(uint32_t face, ArrayView<const uint32_t> edges);
+  bool checkAgain(uint32_t face, Work& work, ModelFault& fault);
+  std::vector<uint32_t> edgesOf(uint32_t face) const;
+  bool isAlone(uint32_t edge, uint32_t face) const;
 
   Model model_;
   std::vector<std::unique_ptr<EdgeTree>> trees_;  // [edges] null where no face uses it
@@ -71,8 +94,16 @@ class TrimmedSurfaces {
   std::vector<Vec3> vertexAt_;
   EdgeSamples samples_;
   std::vector<Density> densities_;
-  std::vector<Density::Lines> lines_;
+  // Of each face: the lines it has; those that were chosen before any were added where it was measured to be off; the tolerance
+  // that they were chosen for, and the one that is allowed now.
+  std::vector<Density::Lines> lines_, chosen_;
+  std::vector<double> chosenFor_, tolerances_;
   std::vector<FaceMesh> meshes_;
+  std::vector<uint8_t> isReversed_, isChanged_;  // [faces]
+  std::unique_ptr<FaceMesher> mesher_;
+  MeshLayout layout_;
+  bool isMeshed_ = false;
+  std::vector<uint8_t> isEdited_;             // [faces] since they were meshed
   std::vector<ModelFault> faults_;            // of faces left out
   std::vector<uint32_t> firstUses_, usesOf_;  // uses by edges
 };
