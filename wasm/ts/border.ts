@@ -938,3 +938,69 @@ export const readTessellationArrays = (array: ArrayReader): TessellationArrays =
   reports: array(10, Float64Array),
   numbers: array(11, Float64Array),
 });
+
+export interface ChangeArrays {
+  /** [2a] from, to: vertices that are written */
+  readonly vertexRanges: Uint32Array;
+  /** of these vertices */
+  readonly positions: Float32Array;
+  /** of these vertices */
+  readonly normals: Float32Array;
+  /** of these vertices */
+  readonly uvs: Float32Array;
+  /** [2b] from, to: elements of the triangles' array that are written */
+  readonly indexRanges: Uint32Array;
+  /** these elements */
+  readonly triangles: Uint32Array;
+  /** [2c] from, to: elements of the strips' array that are written */
+  readonly stripRanges: Uint32Array;
+  /** these elements */
+  readonly strips: Uint32Array;
+  /** the faces that have changed */
+  readonly faces: Uint32Array;
+  /** [3] numbers of vertices, of elements of triangles and of strips */
+  readonly sizes: Uint32Array;
+  /** [f+1] in triangles */
+  readonly faceStarts: Uint32Array;
+  /** [s+1] */
+  readonly stripStarts: Uint32Array;
+  /** vertices along each edge, of one of its faces */
+  readonly edges: Uint32Array;
+  /** [e+1] */
+  readonly edgeStarts: Uint32Array;
+  /** [n] the first vertex at the same place */
+  readonly same: Uint32Array;
+  /** SurfaceReport: [r] what is to be told */
+  readonly reports: Float64Array;
+  /** TessellationNumbers: [1] */
+  readonly numbers: Float64Array;
+}
+
+export const readChangeArrays = (array: ArrayReader): ChangeArrays => ({
+  vertexRanges: array(0, Uint32Array),
+  positions: array(1, Float32Array),
+  normals: array(2, Float32Array),
+  uvs: array(3, Float32Array),
+  indexRanges: array(4, Uint32Array),
+  triangles: array(5, Uint32Array),
+  stripRanges: array(6, Uint32Array),
+  strips: array(7, Uint32Array),
+  faces: array(8, Uint32Array),
+  sizes: array(9, Uint32Array),
+  faceStarts: array(10, Uint32Array),
+  stripStarts: array(11, Uint32Array),
+  edges: array(12, Uint32Array),
+  edgeStarts: array(13, Uint32Array),
+  same: array(14, Uint32Array),
+  reports: array(15, Float64Array),
+  numbers: array(16, Float64Array),
+});
+
+export interface MoveArrays {
+  /** FaceFault: [0 or 1] why it is refused */
+  readonly faults: Uint32Array;
+}
+
+export const readMoveArrays = (array: ArrayReader): MoveArrays => ({
+  faults: array(0, Uint32Array),
+});
