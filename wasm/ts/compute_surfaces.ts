@@ -2,15 +2,19 @@
 import {
   kFaceFaultLength,
   packSamplingSettings,
+  readChangeArrays,
   readFaceFault,
+  readMoveArrays,
   readSurfacesArrays,
   readTessellationArrays,
+  type ChangeArrays,
   type TessellationArrays,
 } from './border.js';
 import { fractionsFor } from './compute_holes.js';
 import type { SoapfilmError } from './errors.js';
 import type { Limits } from './options.js';
 import { kDefaultMemoryBytes } from './runtime.js';
+import { MeshPatches } from './mesh_patches.js';
 import { Session } from './session.js';
 import { faceFaultError } from './surface_faults.js';
 
@@ -34,10 +38,22 @@ export interface OpenedModel {
   readonly errors: readonly SoapfilmError[];
 }
 
+/** A mesh after an update, and where it was written. */
+export interface UpdatedMesh extends Pick<ChangeArrays, 'vertexRanges' | 'indexRanges' | 'stripRanges' | 'faces'> {
+  readonly mesh: TessellationArrays;
+}
+
+const copiesOf = <K extends string>(arrays: Readonly<Record<K, Uint32Array | Float64Array>>): Record<K, Uint32Array & Float64Array> =>
+  Object.fromEntries(Object.entries<Uint32Array | Float64Array>(arrays).map(([name, array]) => [name, array.slice()])) as Record<
+    K,
+    Uint32Array & Float64Array
+  >;
+
 /** The core's half of a model. It is freed when it is garbage. */
 export class ModelKeeper {
   readonly opened: OpenedModel;
   readonly #session: Session;
+  readonly #patches = new MeshPatches();
 
   constructor({ shape, numbers }: BareModel, { maxMemoryBytes = kDefaultMemoryBytes }: Pick<Limits, 'maxMemoryBytes'>, id?: number) {
     this.#session = new Session('surfaces', 'sf_close_surfaces', id);
@@ -59,7 +75,36 @@ export class ModelKeeper {
 
   tessellate({ settings, maxMemoryBytes = kDefaultMemoryBytes, onProgress }: TessellationWork): TessellationArrays {
     const args = [this.alive(), packSamplingSettings(settings), maxMemoryBytes];
-    return this.#session.call('sf_tessellate_surfaces', args, readTessellationArrays, { onProgress: fractionsFor(onProgress) });
+    const mesh = this.#session.call('sf_tessellate_surfaces', args, readTessellationArrays, { onProgress: fractionsFor(onProgress) });
+    this.#patches.lend(mesh);
+    return mesh;
+  }
+
+  update({ settings, maxMemoryBytes = kDefaultMemoryBytes, onProgress }: TessellationWork): UpdatedMesh {
+    const args = [this.alive(), packSamplingSettings(settings), maxMemoryBytes];
+    const watch = { onProgress: fractionsFor(onProgress), borrows: true };
+    const change = this.#session.call('sf_update_surfaces', args, readChangeArrays, watch);
+    const blocks = this.#patches.apply(change);
+    // The others are views of the core's memory, soon to be void.
+    const { vertexRanges, indexRanges, stripRanges, faces, faceStarts, stripStarts, edges, edgeStarts, same, reports, numbers } = change;
+    const own = { faceStarts, stripStarts, edges, edgeStarts, same, reports };
+    const mesh = { ...copiesOf(own), ...blocks, numbers: numbers.slice() };
+    return { mesh, ...copiesOf({ vertexRanges, indexRanges, stripRanges, faces }) };
+  }
+
+  /** Moves a pole of a surface. @throws SoapfilmError why it is refused */
+  movePole(face: number, pole: number, at: readonly number[], weight = 0): void {
+    this.#move('sf_move_pole', [face, pole, ...at, weight]);
+  }
+
+  /** Moves a pole of a trimming curve. @throws SoapfilmError why it is refused */
+  moveTrim(face: number, loop: number, use: number, pole: number, at: readonly number[]): void {
+    this.#move('sf_move_trim', [face, loop, use, pole, ...at]);
+  }
+
+  #move(name: string, args: readonly number[]): void {
+    const { faults } = this.#session.call(name, [this.alive(), ...args, kDefaultMemoryBytes], readMoveArrays);
+    if (faults.length > 0) throw faceFaultError(readFaceFault(faults, 0));
   }
 
   dispose(): void {

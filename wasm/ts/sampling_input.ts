@@ -134,7 +134,8 @@ function matrixOf(value: unknown): Float64Array {
   });
 }
 
-function positiveOf(name: string, value: unknown): number {
+/** @throws SoapfilmError `bad-option` */
+export function positiveOf(name: string, value: unknown): number {
   if (typeof value === 'number' && value > 0 && value < Infinity) return value;
   throw mustBe('bad-option', name, 'a positive number', value);
 }

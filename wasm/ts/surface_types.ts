@@ -219,3 +219,21 @@ export interface Tessellation {
   readonly tolerance: number;
   readonly reports: readonly TessellationReport[];
 }
+
+/** What an update has changed. */
+export interface Change {
+  /**
+   * The whole mesh. Its positions, normals, uvs, triangles and strips are the same arrays from update to update, written where the
+   * ranges say, until a face outgrows its room: then all arrays are new, and the ranges are all of them.
+   *
+   * Faces have room to grow. What is left of it is filled with triangles of a single vertex, and strips of such, which are not
+   * drawn; and with vertices that no triangle has.
+   */
+  readonly mesh: Tessellation;
+  /** Pairs `[from, to)` of vertices, of elements of `triangles` and of elements of `strips` that were written. */
+  readonly vertexRanges: Uint32Array;
+  readonly indexRanges: Uint32Array;
+  readonly stripRanges: Uint32Array;
+  /** The faces that have other triangles now, or vertices at other places. */
+  readonly faces: Uint32Array;
+}

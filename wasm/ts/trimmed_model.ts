@@ -6,9 +6,11 @@ import { kDispose } from './dispose.js';
 import type { SoapfilmError } from './errors.js';
 import type { Limits } from './options.js';
 import { tellLast } from './report.js';
-import { faultsOf, kSampling, kTrimmedOptions, tessellationOf, tessellationWorkOf, trimmedOptionsOf } from './sampling_input.js';
+import { faultsOf, kSampling, kTrimmedOptions, tessellationOf, positiveOf, tessellationWorkOf, trimmedOptionsOf } from './sampling_input.js';
 import { flattenFace, flattenModel, type FlatModel } from './surface_input.js';
-import type { Face, Model, Sampling, Tessellation, TrimmedOptions } from './surface_types.js';
+import { finiteOf, numberOf } from './surface_edits.js';
+import type { Change, Face, Model, Sampling, Tessellation, TrimmedOptions } from './surface_types.js';
+import type { PointLike } from './types.js';
 
 /** What models and single faces have in common. */
 class Trimmed {
@@ -44,6 +46,45 @@ class Trimmed {
     const mesh = tessellationOf(this.#keeper.tessellate(work), this.#faults);
     tellLast(() => work.onProgress?.(1));
     return mesh;
+  }
+
+  /**
+   * Makes the mesh one of another sampling, from what there is: only what changes is made anew, in faces, grid lines, samples and
+   * triangles. Vertices that stay keep their numbers. With a camera, what is finer than needed stays until it is a fifth too fine,
+   * so that little changes from frame to frame. The first call tessellates.
+   * @throws SoapfilmError as `tessellate`
+   */
+  update(sampling: Sampling = {}): Change {
+    this.#keeper.alive();
+    const work = tessellationWorkOf(optionsOf(sampling, kSampling, 'sampling'), this.#keeper.opened, this.#limits);
+    const { mesh, ...ranges } = this.#keeper.update(work);
+    const change = { mesh: tessellationOf(mesh, this.#faults), ...ranges };
+    tellLast(() => work.onProgress?.(1));
+    return change;
+  }
+
+  /**
+   * Moves a pole of a face's surface; the next `update` or `tessellate` follows. All edges of the face must be of this face alone;
+   * from then on they lie where the surface has them.
+   * @param pole its index in `surface.poles`
+   * @param weight positive; default: as it was
+   * @throws SoapfilmError `bad-edge` if another face shares an edge; `bad-option`; `disposed`. All is then as before
+   */
+  movePole(face: number, pole: number, at: PointLike, weight?: number): void {
+    const place = [numberOf('face', face), numberOf('pole', pole)] as const;
+    this.#keeper.movePole(...place, finiteOf('at', at, 3), weight === undefined ? 0 : positiveOf('weight', weight));
+  }
+
+  /**
+   * Moves a pole of a trimming curve in the domain of its face; the next `update` or `tessellate` follows. The edge must have this
+   * use alone. At an end of the curve the next curve of the loop moves along.
+   * @param pole its index in `pcurve.poles`
+   * @throws SoapfilmError `bad-edge`; `trim-outside`, `trim-self-intersects`, `trims-cross`, `hole-outside`, `degenerate`;
+   *   `bad-option`; `disposed`. All is then as before
+   */
+  moveTrim(face: number, loop: number, use: number, pole: number, at: PointLike): void {
+    const place = [numberOf('face', face), numberOf('loop', loop), numberOf('use', use), numberOf('pole', pole)] as const;
+    this.#keeper.moveTrim(...place, finiteOf('at', at, 2));
   }
 
   /** Frees its memory. Any other use of it afterwards throws `disposed`. */

@@ -222,6 +222,25 @@ Outcome PolygonTriangulator::triangulate(const PolygonView& polygon, const Polyg
   return outcome;
 }
 
+Outcome PolygonTriangulator::floodDelaunay(const PolygonView& polygon, Work& work,
+                                           std::vector<uint32_t>& triangles) {
+  State& s = *state_;
+  Charge charge(work);
+  triangles.clear();
+  Outcome outcome = s.sweep.run(polygon, true, true, work, s.loops, s.seen);
+  if (!outcome.ok()) return outcome;
+  if (!s.flood.run(s.loops, s.seen, work, charge, nullptr, true) ||
+      !s.delaunay.runFlooded(s.loops, work, s.flood)) {
+    outcome.status = work.going() ? Status::SelfIntersecting : work.status();
+    return outcome;
+  }
+  const ArrayView<uint32_t> found = s.flood.triangles();
+  triangles.reserve(found.size() + s.loops.flat.size());
+  for (const uint32_t v : found) triangles.push_back(s.loops.vertex[v]);
+  triangles.insert(triangles.end(), s.loops.flat.begin(), s.loops.flat.end());
+  return outcome;
+}
+
 Outcome PolygonTriangulator::triangulateBatch(const PolygonBatch& batch,
                                               const PolygonOptions& options, Work& work,
                                               PolygonBatchResult& result) {

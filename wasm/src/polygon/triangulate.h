@@ -54,6 +54,10 @@ class PolygonTriangulator {
   Outcome triangulate(const PolygonView& polygon, const PolygonOptions& options, Work& work,
                       PolygonTriangulation& result);
 
+  /// The same by flooding, made constrained Delaunay, and no more: what callers of the core alone need.
+  ///   triangles  [3m] out: empty before
+  Outcome floodDelaunay(const PolygonView& polygon, Work& work, std::vector<uint32_t>& triangles);
+
   /// The same for many polygons; options `strips`, `trace` and `repair` do not apply. The outcome
   /// is about the batch as a whole: BadStarts, OutOfMemory, Stopped.
   Outcome triangulateBatch(const PolygonBatch& batch, const PolygonOptions& options, Work& work,

@@ -44,13 +44,10 @@ bool BandPatch::run(const Band& band, PolygonTriangulator& triangulator, Work& w
       islands_.push_back(band.at[v].x), islands_.push_back(band.at[v].y);
       islandVertices_.push_back(v);
     }
-  found_.triangles.clear();
+  found_.clear();
   if (!rings_.empty()) {
-    PolygonOptions options;
-    options.delaunay = true;
-    const Outcome outcome =
-        triangulator.triangulate({xy_, starts_, islands_, true}, options, work, found_);
-    if (!outcome.ok()) return false;
+    if (!triangulator.floodDelaunay({xy_, starts_, islands_, true}, work, found_).ok())
+      return false;
   } else if (!islands_.empty()) {
     return false;
   }
@@ -63,7 +60,7 @@ bool BandPatch::run(const Band& band, PolygonTriangulator& triangulator, Work& w
   corners.resize(3 * to);
   kept = to;
   const uint32_t onRings = uint32_t(rings_.size());
-  for (const uint32_t v : found_.triangles)
+  for (const uint32_t v : found_)
     corners.push_back(v < onRings ? rings_[v] : islandVertices_[v - onRings]);
   return true;
 }

@@ -51,7 +51,7 @@ class BandPatch {
   std::vector<uint32_t> firsts_, rings_, starts_;
   std::vector<double> xy_, islands_;
   std::vector<uint32_t> islandVertices_;
-  PolygonTriangulation found_;
+  std::vector<uint32_t> found_;
 };
 
 }  // namespace sf

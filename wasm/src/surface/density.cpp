@@ -56,7 +56,8 @@ uint32_t LineTree::childOf(uint32_t node) {
 
 template <class F>
 void LineTree::refine(F&& isHalved, Choice& choice) {
-  std::vector<uint32_t> open(choice.nodes.rbegin(), choice.nodes.rend());
+  open_.assign(choice.nodes.rbegin(), choice.nodes.rend());
+  std::vector<uint32_t>& open = open_;
   choice.nodes.clear();
   choice.error = 0;
   const double least = std::ldexp(nodes_[roots_ - 1].b - nodes_[0].a, -int(kMostDepth));
@@ -292,27 +293,32 @@ void Density::choose(double tolerance, const Fineness& fineness, Lines& lines) {
   const double turn = fineness.angle() < kPi ? fineness.angle() : Sampling::kNoLimit;
   // The errors of both directions add up: of all ways to share the tolerance, the one with the fewest cells.
   constexpr double kShares[] = {1, 0.75, 0.5, 0.25, 0.125};
-  Density::Lines best;
-  double fewest = Sampling::kNoLimit;
-  LineTree::Choice byShare[5];
-  for (int k = 0; k < 5; ++k)
-    v.choose(kShares[k] * tolerance, turn, fineness.hysteresis(), byShare[k]);
-  for (const double share : kShares) {
-    LineTree::Choice cu;
-    u.choose(share * tolerance, turn, fineness.hysteresis(), cu);
-    for (const LineTree::Choice& cv : byShare) {
-      if (cu.error + cv.error > tolerance) continue;
-      const double cells = double(cu.nodes.size()) * double(cv.nodes.size());
-      if (cells >= fewest) break;
-      fewest = cells, best.u = cu, best.v = cv;
-      break;
+  u.choose(tolerance, turn, fineness.hysteresis(), lines.u);
+  v.choose(tolerance, turn, fineness.hysteresis(), lines.v);
+  // The most that each may be.
+  if (lines.u.error + lines.v.error > tolerance) {
+    Density::Lines best;
+    double fewest = Sampling::kNoLimit;
+    LineTree::Choice byShare[5];
+    for (int k = 0; k < 5; ++k)
+      v.choose(kShares[k] * tolerance, turn, fineness.hysteresis(), byShare[k]);
+    for (const double share : kShares) {
+      LineTree::Choice cu;
+      u.choose(share * tolerance, turn, fineness.hysteresis(), cu);
+      for (const LineTree::Choice& cv : byShare) {
+        if (cu.error + cv.error > tolerance) continue;
+        const double cells = double(cu.nodes.size()) * double(cv.nodes.size());
+        if (cells >= fewest) break;
+        fewest = cells, best.u = cu, best.v = cv;
+        break;
+      }
     }
+    if (fewest == Sampling::kNoLimit) {
+      u.choose(tolerance / 2, turn, 1, best.u);
+      v.choose(tolerance / 2, turn, 1, best.v);
+    }
+    lines = best;
   }
-  if (fewest == Sampling::kNoLimit) {
-    u.choose(tolerance / 2, turn, 1, best.u);
-    v.choose(tolerance / 2, turn, 1, best.v);
-  }
-  lines = best;
   // A twisted surface that is straight along both parameters is off by a quarter of its twist.
   if (twist_ > 0 && tolerance < Sampling::kNoLimit) {
     bool isOff = true;

@@ -69,6 +69,7 @@ class LineTree {
   void refine(F&& isHalved, Choice& choice);
 
   std::vector<Column> columns_;
+  std::vector<uint32_t> open_;  // of one call
   std::vector<Node> nodes_;
   uint32_t roots_ = 0;
   bool isFlat_ = true;

@@ -12,6 +12,8 @@ namespace {
 constexpr double kShortest = 1e-10;
 /// Pieces that cross within this share of the edge from their common corner overshoot it.
 constexpr double kOvershoot = 0.05;
+/// Halving an interval of the whole edge this often makes it too short.
+constexpr uint32_t kMostLevels = 40;
 /// Into how many pieces an interval is cut to be measured, if its curve is a single polynomial there.
 constexpr uint32_t kPieces = 4, kMostPieces = 64;
 
@@ -73,10 +75,10 @@ EdgeTree::EdgeTree(const Model& model, uint32_t edge, ArrayView<const uint32_t> 
 
 Vec3 EdgeTree::at(double t) const {
   const ModelEdge& e = model_->edges[edge_];
-  if (e.curve) return e.curve->at(t).at;
+  if (e.curve) return e.curve->placeAt(t);
   const ModelUse& use = model_->uses[e.firstUse];
   const Point2 p = use.curve.at(t);
-  return model_->faces[use.face].surface->at(p.x, p.y).at;
+  return model_->faces[use.face].surface->tangentsAt(p.x, p.y).at;
 }
 
 uint32_t EdgeTree::add(double a, Vec3 from, double b, Vec3 to) {
@@ -118,17 +120,18 @@ void EdgeTree::select(const Fineness& fineness, double longest, std::vector<Edge
     uint32_t node;
     Vec3 from, to;
   };
-  std::vector<Open> open;
+  // Halves that wait: one for each level.
+  Open open[kMostLevels];
+  uint32_t waiting = 0;
   const double least = kShortest * (e.to - e.from);
   const bool isClosed = e.fromVertex == e.toVertex && !e.isDegenerate;
   for (uint32_t i = 0; i + 1 < breaks_.size(); ++i) {
-    open.push_back({i, breakPoints_[i], breakPoints_[i + 1]});
-    while (!open.empty()) {
-      const Open o = open.back();
-      open.pop_back();
+    open[waiting++] = {i, breakPoints_[i], breakPoints_[i + 1]};
+    while (waiting > 0) {
+      const Open o = open[--waiting];
       Node* node = &nodes_[o.node];
       bool isHalved = false;
-      if (!e.isDegenerate && node->b - node->a > 2 * least) {
+      if (!e.isDegenerate && node->b - node->a > 2 * least && waiting + 2 < kMostLevels) {
         const double allowed = node->isHalved ? fineness.hysteresis() : 1;
         const double tolerance =
             fineness.tolerance(node->middle, 0.5 * node->chord + node->error) * allowed;
@@ -145,8 +148,8 @@ void EdgeTree::select(const Fineness& fineness, double longest, std::vector<Edge
       }
       if (node->child == kNone) halve(o.node, o.from, o.to), node = &nodes_[o.node];
       // The first half is the next to be looked at.
-      open.push_back({node->child + 1, node->middle, o.to});
-      open.push_back({node->child, o.from, node->middle});
+      open[waiting++] = {node->child + 1, node->middle, o.to};
+      open[waiting++] = {node->child, o.from, node->middle};
     }
   }
   samples.push_back({e.to, breakPoints_.back(), kNone});

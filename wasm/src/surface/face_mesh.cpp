@@ -32,7 +32,11 @@ struct Rings {
   std::vector<uint32_t> vertex;         // number in the mesh
   std::vector<uint32_t> use,
       sample;  // the use and the sample of its edge where the segment after each begins
-  bool areGrown = false;
+
+  void clear() {
+    at.clear(), uvs.clear(), starts.clear(), loops.clear();
+    vertex.clear(), use.clear(), sample.clear();
+  }
 };
 
 /// Turns triangles and strips to the other side.
@@ -56,6 +60,14 @@ void turnRound(FaceMesh& mesh) {
 
 }  // namespace
 
+void FaceMesh::clear() {
+  positions.clear(), normals.clear(), uvs.clear(), roles.clear(), unused.clear();
+  triangles.clear(), strips.clear(), stripStarts.clear(), useVertices.clear(), useStarts.clear();
+  us.clear(), vs.clear(), gridStrips.clear(), poles.clear(), band.clear(), bandOff.clear();
+  border.clear();
+  deviation = 0;
+}
+
 struct FaceMesher::State {
   explicit State(const Model& model) : model(model) {}
 
@@ -74,6 +86,17 @@ struct FaceMesher::State {
     Point2 uv;
   };
   std::vector<Corner> corners;
+  // Of one loop.
+  std::vector<Point2> loopUvs;
+  std::vector<uint32_t> loopPlaces, loopUses, loopNumbers, loopFirsts, loopVertices;
+  std::vector<Vec3> loopAt;
+  // For the triangulators.
+  std::vector<double> xy, islandXy;
+  std::vector<uint32_t> starts, vertices, bandTwins, bandStrips, bandStripStarts, bandCorners;
+  std::vector<uint32_t> bandFound;
+  std::vector<double> middleUs, middleVs;
+  std::vector<uint32_t> known, opposite;
+  std::vector<uint8_t> isNew;
 
   // Of the face at hand.
   uint32_t face = 0;
@@ -154,7 +177,7 @@ Point2 FaceMesher::State::sharedCorner(uint32_t vertex, Point2 uv) {
 /// Lays out the rings, and their vertices in the mesh.
 void FaceMesher::State::begin(uint32_t f, const EdgeSamples& samples, FaceMesh& out) {
   face = f, mesh = &out;
-  if (!updates) out = {};
+  if (!updates) out.clear();
   surface = model.faces[f].surface.get();
   isMet.assign(out.positions.size(), 0);
   table.reset(out.positions.size());
@@ -163,16 +186,16 @@ void FaceMesher::State::begin(uint32_t f, const EdgeSamples& samples, FaceMesh& 
   oldUseVertices.swap(out.useVertices), oldUseStarts.swap(out.useStarts);
   oldBorder.swap(out.border);
   out.useVertices.clear(), out.useStarts.clear(), out.border.clear();
-  rings = {};
+  rings.clear();
   rings.starts.push_back(0);
-  std::vector<Point2> uvs;
-  std::vector<uint32_t> places, uses, numbers;
-  std::vector<Vec3> at;
+  std::vector<Point2>& uvs = loopUvs;
+  std::vector<uint32_t>&places = loopPlaces, &uses = loopUses, &numbers = loopNumbers;
+  std::vector<uint32_t>&firsts = loopFirsts, &vertexOf = loopVertices;
+  std::vector<Vec3>& at = loopAt;
   out.useStarts.push_back(0);
   for (uint32_t l = model.faces[f].firstLoop; l < model.faces[f].endLoop; ++l) {
     const ModelLoop& loop = model.loops[l];
-    uvs.clear(), places.clear(), uses.clear(), numbers.clear(), at.clear();
-    std::vector<uint32_t> firsts;
+    uvs.clear(), places.clear(), uses.clear(), numbers.clear(), at.clear(), firsts.clear();
     for (uint32_t u = loop.firstUse; u < loop.endUse; ++u) {
       const ModelUse& use = model.uses[u];
       const ModelEdge& edge = model.edges[use.edge];
@@ -206,7 +229,7 @@ void FaceMesher::State::begin(uint32_t f, const EdgeSamples& samples, FaceMesh& 
       area += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
     }
     const bool turns = (area < 0) == loop.isOuter;
-    std::vector<uint32_t> vertexOf(n);
+    vertexOf.resize(n);
     for (uint32_t i = 0; i < n; ++i) {
       const auto isAt = [&](uint32_t v) { return out.positions[v] == at[i]; };
       uint32_t v = table.find(uvs[i], out.uvs, isAt);
@@ -311,7 +334,7 @@ FaceProblem FaceMesher::check(uint32_t face, const EdgeSamples& samples, Work& w
 }
 
 double FaceMesher::State::deviationAt(Point2 uv, Vec3 at) const {
-  const SurfacePoint p = surface->at(uv.x, uv.y);
+  const TangentPoint p = surface->tangentsAt(uv.x, uv.y);
   const Vec3 n = p.normal();
   const double size = length(n);
   const Vec3 d = p.at - at;
@@ -355,7 +378,7 @@ void FaceMesher::State::measureCells(const Density::Lines& lines, bool& isRefine
   const auto at = [](const std::vector<double>& of, size_t i) {
     return Vec3{of[3 * i], of[3 * i + 1], of[3 * i + 2]};
   };
-  std::vector<double> middleUs, middleVs;
+  middleUs.clear(), middleVs.clear();
   for (size_t i = 0; i + 1 < nu; ++i) middleUs.push_back(0.5 * (us[i] + us[i + 1]));
   for (size_t j = 0; j + 1 < nv; ++j) middleVs.push_back(0.5 * (vs[j] + vs[j + 1]));
   // All at once, or in an update one by one.
@@ -369,7 +392,7 @@ void FaceMesher::State::measureCells(const Density::Lines& lines, bool& isRefine
       const size_t c = size_t(i) * (nv - 1) + j;
       m = at(centers, c), n = at(centerNormals, c);
     } else {
-      const SurfacePoint p = surface->at(middleUs[i], middleVs[j]);
+      const TangentPoint p = surface->tangentsAt(middleUs[i], middleVs[j]);
       m = p.at, n = p.normal();
       const double size = length(n);
       n = size > 0 ? (1 / size) * n : Vec3{};
@@ -427,8 +450,8 @@ uint32_t FaceMesher::State::gridVertexAt(uint32_t name) {
       isMet[v] = 1, mesh->roles[v] = FaceMesh::Role::Grid;
       return v;
     }
-    v = addVertex(uv, surface->at(uv.x, uv.y).at, surface->normalAt(uv.x, uv.y),
-                  FaceMesh::Role::Grid);
+    const TangentPoint p = surface->tangentsAt(uv.x, uv.y);
+    v = addVertex(uv, p.at, surface->normalOf(p, uv.x, uv.y), FaceMesh::Role::Grid);
     table.add(v, mesh->uvs);
     return v;
   }
@@ -490,8 +513,8 @@ void FaceMesher::State::makeIslands() {
 
 /// Triangles between the grid and the trimming curves, all of them.
 FaceProblem FaceMesher::State::triangulateBand() {
-  std::vector<double> xy, islands;
-  std::vector<uint32_t> starts = {0}, vertices;
+  xy.clear(), islandXy.clear(), vertices.clear(), starts.assign(1, 0);
+  std::vector<double>& islands = islandXy;
   const auto add = [&](Point2 p, uint32_t vertex) {
     xy.push_back(p.x), xy.push_back(p.y);
     vertices.push_back(vertex);
@@ -514,11 +537,7 @@ FaceProblem FaceMesher::State::triangulateBand() {
     islands.push_back(p.x), islands.push_back(p.y);
     vertices.push_back(gridVertexAt(name));
   }
-  PolygonOptions options;
-  options.delaunay = true;
-  PolygonTriangulation found;
-  const Outcome outcome =
-      triangulator.triangulate({xy, starts, islands, true}, options, *work, found);
+  const Outcome outcome = triangulator.floodDelaunay({xy, starts, islands, true}, *work, bandFound);
   if (!work->going()) return problemOf({work->status()});
   if (!outcome.ok()) {
     const FaceProblem problem = checkRings();
@@ -530,7 +549,7 @@ FaceProblem FaceMesher::State::triangulateBand() {
     return unknown;
   }
   band.corners.clear();
-  for (const uint32_t v : found.triangles) band.corners.push_back(vertices[v]);
+  for (const uint32_t v : bandFound) band.corners.push_back(vertices[v]);
   bandOff.assign(band.corners.size() / 3, Sampling::kNoLimit);
   return {};
 }
@@ -655,11 +674,9 @@ bool FaceMesher::State::refineBand() {
     return true;
   }
   const auto at = [&](uint32_t v) -> Vec3 { return mesh->positions[v]; };
-  std::vector<uint32_t> known = band.corners;  // corners of the triangles whose deviation is known
+  known = band.corners;  // corners of the triangles whose deviation is known
   for (size_t t = 0; t < bandOff.size(); ++t)
     if (bandOff[t] > tolerance) known[3 * t] = kNone;
-  std::vector<uint32_t> opposite;
-  std::vector<uint8_t> isNew;
   const size_t most = 64 + 4 * bandAt.size();
   const double quick = 0.25 * tolerance;
   struct Spot {
@@ -731,8 +748,9 @@ bool FaceMesher::State::refineBand() {
         fits = fits && turns(p, q, to);
       }
       if (!fits) continue;
-      const uint32_t v = addVertex(uv, surface->at(uv.x, uv.y).at, surface->normalAt(uv.x, uv.y),
-                                   FaceMesh::Role::Added);
+      const TangentPoint added = surface->tangentsAt(uv.x, uv.y);
+      const uint32_t v =
+          addVertex(uv, added.at, surface->normalOf(added, uv.x, uv.y), FaceMesh::Role::Added);
       if (v == bandAt.size())
         bandAt.push_back(to);
       else
@@ -762,18 +780,20 @@ void FaceMesher::State::finish() {
     mesh->roles[v] = FaceMesh::Role::None;
     mesh->unused.push_back(v);
   }
-  std::vector<uint32_t> corners;
+  std::vector<uint32_t>& corners = bandCorners;
+  corners.clear();
   for (uint32_t t = 0; t < band.triangleCount(); ++t) {
     const uint32_t a = mesh->poles[band.corners[3 * t]], b = mesh->poles[band.corners[3 * t + 1]],
                    c = mesh->poles[band.corners[3 * t + 2]];
     if (a != b && b != c && c != a) corners.insert(corners.end(), {a, b, c});
   }
-  std::vector<uint32_t> twins, strips, starts;
+  std::vector<uint32_t>&twins = bandTwins, &strips = bandStrips, &starts = bandStripStarts;
+  strips.clear(), starts.clear();
   findTwins(corners, uint32_t(mesh->positions.size()), *work, twins);
   makeStrips(corners, twins, *work, strips, starts);
-  mesh->triangles.swap(quadTriangles);
+  mesh->triangles = quadTriangles;
   mesh->triangles.insert(mesh->triangles.end(), corners.begin(), corners.end());
-  mesh->strips.swap(quadStrips), mesh->stripStarts.swap(quadStarts);
+  mesh->strips = quadStrips, mesh->stripStarts = quadStarts;
   const uint32_t first = uint32_t(mesh->strips.size());
   mesh->strips.insert(mesh->strips.end(), strips.begin(), strips.end());
   for (size_t i = 1; i < starts.size(); ++i) mesh->stripStarts.push_back(first + starts[i]);
@@ -805,7 +825,7 @@ FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& 
       if (!work.going()) problem.kind = FaceProblem::Kind::Ended;
     }
   }
-  if (problem.kind != FaceProblem::Kind::None) mesh = {};
+  if (problem.kind != FaceProblem::Kind::None) mesh.clear();
   return problem;
 }
 

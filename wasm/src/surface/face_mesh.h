@@ -41,6 +41,9 @@ struct FaceMesh {
   std::vector<uint32_t> band;    // [3b] triangles between grid and trimming curves
   std::vector<double> bandOff;   // [b] their largest deviation
   std::vector<uint32_t> border;  // vertices that are on the band's border or islands in it
+
+  /// Empties it; its memory stays for the next run.
+  void clear();
 };
 
 /// The samples of all edges of a model.

@@ -118,7 +118,7 @@ class ModelReader {
   bool checkUse(uint32_t use);
   void failUse(SurfaceFault fault, uint32_t use);
   Vec3 onSurface(const ModelUse& use, Point2 p) const {
-    return m_.faces[use.face].surface->at(p.x, p.y).at;
+    return m_.faces[use.face].surface->tangentsAt(p.x, p.y).at;
   }
 
   Reader in_;
@@ -342,7 +342,7 @@ bool ModelReader::checkUse(uint32_t number) {
   for (uint32_t i = 0; i <= pieces && pieces > 0; ++i) {
     const double t = edge.from + (edge.to - edge.from) * i / pieces;
     const Point2 p = use.curve.at(t);
-    const Vec3 other = edge.isDegenerate ? first : edge.curve->at(t).at;
+    const Vec3 other = edge.isDegenerate ? first : edge.curve->placeAt(t);
     if (!(distance(onSurface(use, p), other) <= slack))
       return failUse(SurfaceFault::EdgeApart, number), false;
   }

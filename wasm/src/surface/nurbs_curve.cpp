@@ -50,6 +50,19 @@ CurvePoint NurbsCurve::at(double t) const {
   return p;
 }
 
+Vec3 NurbsCurve::placeAt(double t) const {
+  const uint32_t span = t_.spanAt(t), degree = t_.degree();
+  const double a = t_.breaks()[span], x = (t - a) / (t_.breaks()[span + 1] - a);
+  const double* point = points_.data() + size_t(span) * (degree + 1) * 4;
+  Bernstein b;
+  b.firstAt(degree, x);
+  double sums[4] = {};
+  for (uint32_t j = 0; j <= degree; ++j, point += 4)
+    for (int k = 0; k < 4; ++k) sums[k] += b.value[j] * point[k];
+  const double s = 1 / sums[3];
+  return {s * sums[0], s * sums[1], s * sums[2]};
+}
+
 void appendCorners(const NurbsCurve& curve, double from, double to, std::vector<double>& corners) {
   const ArrayView<const double> breaks = curve.spans().breaks();
   for (size_t s = 1; s + 1 < breaks.size(); ++s) {

@@ -30,6 +30,8 @@ class NurbsCurve {
   const BezierSpans& spans() const { return t_; }
   /// At a parameter of the domain, with derivatives from the right at breaks, but at the end of the domain. O(p) time.
   CurvePoint at(double t) const;
+  /// The place alone.
+  Vec3 placeAt(double t) const;
 
  private:
   BezierSpans t_;

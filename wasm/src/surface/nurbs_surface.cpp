@@ -9,7 +9,8 @@ namespace {
 /// A normal shorter than this share of the product of the derivatives' usual lengths is none.
 constexpr double kFlat = 1e-9;
 
-using Homogeneous = double[4];
+constexpr uint32_t kChannels = 4;
+using Homogeneous = double[kChannels];
 
 /// Value and derivatives of a point from homogeneous ones: w = 1 and constant where the surface is not rational.
 SurfacePoint project(const Homogeneous (&a)[6]) {
@@ -29,8 +30,8 @@ SurfacePoint project(const Homogeneous (&a)[6]) {
 }  // namespace
 
 NurbsSurface::NurbsSurface(const NurbsSurfaceView& s)
-    : u_(s.u), v_(s.v), channels_(s.weights.empty() ? 3 : 4) {
-  const uint32_t p = u_.degree() + 1, q = v_.degree() + 1, columns = s.v.count(), c = channels_;
+    : u_(s.u), v_(s.v), isRational_(!s.weights.empty()) {
+  const uint32_t p = u_.degree() + 1, q = v_.degree() + 1, columns = s.v.count(), c = kChannels;
   points_.assign(size_t(u_.count()) * v_.count() * p * q * c, 0);
   std::vector<double> rows(size_t(p) * columns * c);
   double* out = points_.data();
@@ -45,10 +46,10 @@ NurbsSurface::NurbsSurface(const NurbsSurfaceView& s)
         const size_t pole = size_t(u_.firstPole(iu) + k) * columns;
         double* row = &rows[size_t(j) * columns * c];
         for (uint32_t i = 0; i < columns; ++i) {
-          const double w = c == 4 ? f * s.weights[pole + i] : f;
+          const double w = isRational_ ? f * s.weights[pole + i] : f;
           for (uint32_t axis = 0; axis < 3; ++axis)
             row[i * c + axis] += w * s.poles[3 * (pole + i) + axis];
-          if (c == 4) row[i * c + 3] += w;
+          row[i * c + 3] += w;
         }
       }
     for (uint32_t iv = 0; iv < v_.count(); ++iv) {
@@ -71,13 +72,13 @@ NurbsSurface::Local NurbsSurface::localIn(const BezierSpans& spans, double t) {
 }
 
 const double* NurbsSurface::patch(uint32_t iu, uint32_t iv) const {
-  const size_t size = size_t(u_.degree() + 1) * (v_.degree() + 1) * channels_;
+  const size_t size = size_t(u_.degree() + 1) * (v_.degree() + 1) * kChannels;
   return points_.data() + (size_t(iu) * v_.count() + iv) * size;
 }
 
 SurfacePoint NurbsSurface::at(double u, double v) const {
   const Local lu = localIn(u_, u), lv = localIn(v_, v);
-  const uint32_t p = u_.degree() + 1, q = v_.degree() + 1, c = channels_;
+  const uint32_t p = u_.degree() + 1, q = v_.degree() + 1, c = kChannels;
   Bernstein bu, bv;
   bu.at(p - 1, lu.x), bv.at(q - 1, lv.x);
   // At, u, v, uu, uv, vv.
@@ -100,7 +101,9 @@ SurfacePoint NurbsSurface::at(double u, double v) const {
       sums[5][channel] += bu.value[j] * rows[2][channel];
     }
   }
-  if (c == 3) sums[0][3] = 1;
+  // Without weights it is that but for rounding.
+  if (!isRational_)
+    sums[0][3] = 1, sums[1][3] = sums[2][3] = sums[3][3] = sums[4][3] = sums[5][3] = 0;
   // From parameters of the patch to those of the surface.
   const double su = 1 / (u_.breaks()[lu.span + 1] - u_.breaks()[lu.span]),
                sv = 1 / (v_.breaks()[lv.span + 1] - v_.breaks()[lv.span]);
@@ -110,8 +113,38 @@ SurfacePoint NurbsSurface::at(double u, double v) const {
   return project(sums);
 }
 
+TangentPoint NurbsSurface::tangentsAt(double u, double v) const {
+  const Local lu = localIn(u_, u), lv = localIn(v_, v);
+  const uint32_t p = u_.degree() + 1, q = v_.degree() + 1;
+  Bernstein bu, bv;
+  bu.firstAt(p - 1, lu.x), bv.firstAt(q - 1, lv.x);
+  Homogeneous s = {}, su = {}, sv = {};
+  const double* point = patch(lu.span, lv.span);
+  for (uint32_t j = 0; j < p; ++j) {
+    Homogeneous row = {}, across = {};
+    for (uint32_t l = 0; l < q; ++l, point += kChannels)
+      for (uint32_t k = 0; k < kChannels; ++k)
+        row[k] += bv.value[l] * point[k], across[k] += bv.first[l] * point[k];
+    for (uint32_t k = 0; k < kChannels; ++k)
+      s[k] += bu.value[j] * row[k], su[k] += bu.first[j] * row[k], sv[k] += bu.value[j] * across[k];
+  }
+  return tangentsOf(s, su, sv, lu.span, lv.span);
+}
+
+/// From homogeneous sums of a patch to the surface's parameters.
+TangentPoint NurbsSurface::tangentsOf(const double (&s)[4], const double (&su)[4],
+                                      const double (&sv)[4], uint32_t iu, uint32_t iv) const {
+  const double hu = u_.breaks()[iu + 1] - u_.breaks()[iu],
+               hv = v_.breaks()[iv + 1] - v_.breaks()[iv];
+  const auto part = [](const double(&a)[4]) { return Vec3{a[0], a[1], a[2]}; };
+  if (!isRational_) return {part(s), (1 / hu) * part(su), (1 / hv) * part(sv)};
+  const double w = 1 / s[3];
+  const Vec3 at = w * part(s);
+  return {at, (w / hu) * (part(su) - su[3] * at), (w / hv) * (part(sv) - sv[3] * at)};
+}
+
 /// Su x Sv as a unit vector, or zero if it is not clear.
-Vec3 NurbsSurface::usualNormal(const SurfacePoint& p) const {
+Vec3 NurbsSurface::usualNormal(const TangentPoint& p) const {
   const Vec3 n = p.normal();
   const double size = length(n), usual = length(p.u) * length(p.v);
   // Lengths of a degenerate side are not zero exactly: what the surface has across the domain is the measure.
@@ -126,32 +159,32 @@ Vec3 NurbsSurface::nearbyNormal(double u, double v) const {
   const double middleU = 0.5 * (u_.breaks()[0] + u_.breaks()[u_.count()]),
                middleV = 0.5 * (v_.breaks()[0] + v_.breaks()[v_.count()]);
   for (const double share : {1e-6, 1e-4, 1e-2}) {
-    const Vec3 n = usualNormal(at(u + share * (middleU - u), v + share * (middleV - v)));
+    const Vec3 n = usualNormal(tangentsAt(u + share * (middleU - u), v + share * (middleV - v)));
     if (dot(n, n) > 0) return n;
   }
   return {0, 0, 0};
 }
 
-Vec3 NurbsSurface::normalAt(double u, double v) const {
-  const Vec3 n = usualNormal(at(u, v));
+Vec3 NurbsSurface::normalOf(const TangentPoint& p, double u, double v) const {
+  const Vec3 n = usualNormal(p);
   return dot(n, n) > 0 ? n : nearbyNormal(u, v);
 }
 
 void NurbsSurface::grid(ArrayView<const double> us, ArrayView<const double> vs, double* positions,
                         double* normals) const {
-  const uint32_t p = u_.degree() + 1, q = v_.degree() + 1, c = channels_, width = v_.count() * q;
+  const uint32_t p = u_.degree() + 1, q = v_.degree() + 1, c = kChannels, width = v_.count() * q;
   std::vector<Bernstein> bv(vs.size());
   std::vector<Local> lv;
   for (size_t k = 0; k < vs.size(); ++k) {
     lv.push_back(localIn(v_, vs[k]));
-    bv[k].at(q - 1, lv[k].x);
+    bv[k].firstAt(q - 1, lv[k].x);
   }
   // Of one u-line: Bézier points along it, and of the derivative by u.
   std::vector<double> line(size_t(width) * c), across(size_t(width) * c);
   Bernstein bu;
   for (const double u : us) {
     const Local lu = localIn(u_, u);
-    bu.at(p - 1, lu.x);
+    bu.firstAt(p - 1, lu.x);
     std::fill(line.begin(), line.end(), 0), std::fill(across.begin(), across.end(), 0);
     for (uint32_t iv = 0; iv < v_.count(); ++iv) {
       const double* point = patch(lu.span, iv);
@@ -161,26 +194,16 @@ void NurbsSurface::grid(ArrayView<const double> us, ArrayView<const double> vs, 
           l[i] += bu.value[j] * *point, a[i] += bu.first[j] * *point;
     }
     for (size_t k = 0; k < vs.size(); ++k, positions += 3, normals += 3) {
-      const size_t first = size_t(lv[k].span) * q * c;
+      const double *l = &line[size_t(lv[k].span) * q * c], *a = &across[size_t(lv[k].span) * q * c];
       Homogeneous s = {}, su = {}, sv = {};
-      for (uint32_t l = 0; l < q; ++l)
-        for (uint32_t channel = 0; channel < c; ++channel) {
-          const double x = line[first + l * c + channel];
-          s[channel] += bv[k].value[l] * x;
-          su[channel] += bv[k].value[l] * across[first + l * c + channel];
-          sv[channel] += bv[k].first[l] * x;
+      for (uint32_t i = 0; i < q; ++i, l += kChannels, a += kChannels)
+        for (uint32_t channel = 0; channel < kChannels; ++channel) {
+          s[channel] += bv[k].value[i] * l[channel];
+          su[channel] += bv[k].value[i] * a[channel];
+          sv[channel] += bv[k].first[i] * l[channel];
         }
-      SurfacePoint point;
-      const double w = c == 4 ? 1 / s[3] : 1;
-      point.at = w * Vec3{s[0], s[1], s[2]};
-      point.u = w * (Vec3{su[0], su[1], su[2]} - su[3] * point.at);
-      point.v = w * (Vec3{sv[0], sv[1], sv[2]} - sv[3] * point.at);
-      // As lengths along the surface's parameters: the same test as elsewhere.
-      const double hu = u_.breaks()[lu.span + 1] - u_.breaks()[lu.span],
-                   hv = v_.breaks()[lv[k].span + 1] - v_.breaks()[lv[k].span];
-      point.u = (1 / hu) * point.u, point.v = (1 / hv) * point.v;
-      Vec3 n = usualNormal(point);
-      if (dot(n, n) == 0) n = nearbyNormal(u, vs[k]);
+      const TangentPoint point = tangentsOf(s, su, sv, lu.span, lv[k].span);
+      const Vec3 n = normalOf(point, u, vs[k]);
       positions[0] = point.at.x, positions[1] = point.at.y, positions[2] = point.at.z;
       normals[0] = n.x, normals[1] = n.y, normals[2] = n.z;
     }

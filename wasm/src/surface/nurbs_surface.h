@@ -18,11 +18,16 @@ struct NurbsSurfaceView {
   ArrayView<const double> weights;  // [u.count() v.count()] positive, or empty: not rational
 };
 
-/// A point of a surface, and its derivatives there.
-struct SurfacePoint {
-  Vec3 at, u, v, uu, uv, vv;
+/// A point of a surface, and its first derivatives there.
+struct TangentPoint {
+  Vec3 at, u, v;
   /// Su x Sv, which is zero where the parametrisation is degenerate.
   Vec3 normal() const { return cross(u, v); }
+};
+
+/// The same with second derivatives.
+struct SurfacePoint : TangentPoint {
+  Vec3 uu, uv, vv;
 };
 
 class NurbsSurface {
@@ -36,10 +41,14 @@ class NurbsSurface {
   /// At parameters of the domain. With derivatives from the right at breaks, but at the end of the domain.
   /// O(p q) time.
   SurfacePoint at(double u, double v) const;
+  /// The same without second derivatives, in half the time.
+  TangentPoint tangentsAt(double u, double v) const;
 
   /// The unit normal. Where Su x Sv vanishes, such as at the pole of a sphere or on the tip of a cone, it is that of the
   /// surface nearby, on the side of the middle of the domain; zero only if the surface has none there either.
-  Vec3 normalAt(double u, double v) const;
+  Vec3 normalAt(double u, double v) const { return normalOf(tangentsAt(u, v), u, v); }
+  /// The same for the point at these parameters.
+  Vec3 normalOf(const TangentPoint& p, double u, double v) const;
 
   /// Positions and unit normals at a grid: for each of `us` all of `vs`, both of the domain. About 4 (q + 1) products a point
   /// once the rows are contracted.
@@ -55,12 +64,14 @@ class NurbsSurface {
   };
   static Local localIn(const BezierSpans& spans, double t);
   const double* patch(uint32_t iu, uint32_t iv) const;
-  Vec3 usualNormal(const SurfacePoint& p) const;
+  Vec3 usualNormal(const TangentPoint& p) const;
   Vec3 nearbyNormal(double u, double v) const;
+  TangentPoint tangentsOf(const double (&s)[4], const double (&su)[4], const double (&sv)[4],
+                          uint32_t iu, uint32_t iv) const;
 
   BezierSpans u_, v_;
-  uint32_t channels_;           // 3, or 4 if it is rational: x w, y w, z w, w
-  std::vector<double> points_;  // patch after patch, u by u: [(p + 1)(q + 1) channels]
+  bool isRational_;
+  std::vector<double> points_;  // patch after patch, u by u: [(p + 1)(q + 1) 4] x w, y w, z w, w
 };
 
 }  // namespace sf

@@ -69,6 +69,28 @@ uint32_t BezierSpans::spanAt(double t) const {
   return uint32_t(after - breaks_.begin()) - 1;
 }
 
+void Bernstein::firstAt(uint32_t degree, double x) {
+  const double y = 1 - x;
+  if (degree == 3) {
+    const double xx = x * x, yy = y * y, xy = x * y;
+    value[0] = yy * y, value[1] = 3 * x * yy, value[2] = 3 * xx * y, value[3] = xx * x;
+    first[0] = -3 * yy, first[1] = 3 * yy - 6 * xy, first[2] = 6 * xy - 3 * xx, first[3] = 3 * xx;
+    return;
+  }
+  // Degree by degree; the last step but one leaves what derivatives are made of.
+  double once[kMostDegree + 1];
+  value[0] = 1;
+  for (uint32_t r = 1; r <= degree; ++r) {
+    if (r == degree) std::copy(value, value + r, once);
+    value[r] = x * value[r - 1];
+    for (uint32_t j = r - 1; j > 0; --j) value[j] = y * value[j] + x * value[j - 1];
+    value[0] *= y;
+  }
+  const double n = degree;
+  first[0] = -n * once[0], first[degree] = n * once[degree - 1];
+  for (uint32_t j = 1; j < degree; ++j) first[j] = n * (once[j - 1] - once[j]);
+}
+
 void Bernstein::at(uint32_t degree, double x) {
   // Degree by degree; the last two steps leave what derivatives are made of.
   double once[kMostDegree + 1], twice[kMostDegree + 1];

@@ -55,6 +55,8 @@ class BezierSpans {
 struct Bernstein {
   double value[kMostDegree + 1], first[kMostDegree + 1], second[kMostDegree + 1];
   void at(uint32_t degree, double x);
+  /// Without second derivatives: most places need none.
+  void firstAt(uint32_t degree, double x);
 };
 
 }  // namespace sf

@@ -23,7 +23,7 @@ class TrimCurve {
   bool isFound() const { return curve_ != nullptr; }
   /// At a parameter of the edge.
   Point2 at(double t) const {
-    const Vec3 p = curve_->at(t).at;
+    const Vec3 p = curve_->placeAt(t);
     return {p.x, p.y};
   }
   /// Appends the parameters of corners strictly inside a range.

@@ -48,7 +48,8 @@ void TrimmedSurfaces::numberPlaces() {
 /// Chooses the samples of an edge. Whether they are others than before.
 bool TrimmedSurfaces::selectEdge(uint32_t edge, const Fineness& fineness) {
   std::vector<EdgeSample>& of = samples_.of[edge];
-  std::vector<EdgeSample> before;
+  std::vector<EdgeSample>& before = samplesBefore_;
+  before.clear();
   before.swap(of);
   trees_[edge]->select(fineness, longest_[edge], of);
   // Bit by bit the same for all edges that end there.
@@ -414,7 +415,7 @@ bool TrimmedSurfaces::tessellate(const Sampling& given, const TessellationLimits
   Sampling used;
   double factor;
   isMeshed_ = false;
-  for (FaceMesh& mesh : meshes_) mesh = {};
+  for (FaceMesh& mesh : meshes_) mesh.clear();
   const bool isDone = fewEnough(given, limits, false, work, used, factor);
   const bool isOver = work.endStage();
   if (!isDone && !isOver) return false;

@@ -93,6 +93,7 @@ class TrimmedSurfaces {
   std::vector<double> longest_;                   // [edges]
   std::vector<Vec3> vertexAt_;
   EdgeSamples samples_;
+  std::vector<EdgeSample> samplesBefore_;
   std::vector<Density> densities_;
   // Of each face: the lines it has; those that were chosen before any were added where it was measured to be off; the tolerance
   // that they were chosen for, and the one that is allowed now.
