@@ -57,7 +57,7 @@ export function faultsOf(here: readonly SoapfilmError[], core: readonly Soapfilm
  * What the core is to do.
  * @throws SoapfilmError `bad-option`
  */
-export function tessellationWorkOf(given: Given<Sampling>, { box }: OpenedModel, limits: Pick<Limits, 'maxMemoryBytes'>): TessellationWork {
+export function tessellationWorkOf(given: Given<Sampling>, { box }: Pick<OpenedModel, 'box'>, limits: Pick<Limits, 'maxMemoryBytes'>): TessellationWork {
   const { tolerance, relative, angle, camera, aspect = kDefaultAspect, maxTriangles = Infinity, maxSeconds = Infinity, maxMemoryBytes } = given;
   const picture = camera === undefined ? kNoCamera : pictureOf(camera);
   const diagonal = Math.hypot(box[3] - box[0], box[4] - box[1], box[5] - box[2]);
