@@ -12,6 +12,11 @@ constexpr double kRounding = 1e-12;
 /// Tangents that turn by more than this, in radians, make a crease.
 constexpr double kCrease = 1e-3;
 constexpr int kMostLooks = 4;
+constexpr double kHalfway = 1.38;
+/// Cells up to this aspect have triangles beside them that are as good as can be in space.
+constexpr double kLongCell = 4.5;
+/// How many cells an interval of an edge may be long.
+constexpr double kEdgeCells = 3;
 
 }  // namespace
 
@@ -21,6 +26,7 @@ LineTree::LineTree(std::vector<Column> columns, std::vector<double> breaks)
     if (column.form > 0 || column.turn > 0) isFlat_ = false;
   for (size_t i = 0; i + 1 < breaks.size(); ++i) add(breaks[i], breaks[i + 1]);
   roots_ = uint32_t(nodes_.size());
+  for (size_t i = 1; i + 1 < breaks.size(); ++i) creases_.push_back(breaks[i]);
 }
 
 uint32_t LineTree::add(double a, double b) {
@@ -206,7 +212,7 @@ bool refineColumns(std::vector<LineTree::Column>& columns) {
 
 double Density::longest(const Lines& lines) const {
   if (lines.u.nodes.size() == 1 && lines.v.nodes.size() == 1) return Sampling::kNoLimit;
-  return std::max(usualLength(u, lines.u), usualLength(v, lines.v));
+  return kEdgeCells * std::max(usualLength(u, lines.u), usualLength(v, lines.v));
 }
 
 std::vector<double> creasesOf(const NurbsSurface& surface, bool alongU) {
@@ -226,6 +232,12 @@ std::vector<double> creasesOf(const NurbsSurface& surface, bool alongU) {
     if (isCrease) creases.push_back(t);
   }
   return creases;
+}
+
+Point2 Density::shortening(const Lines& lines) const {
+  const double lu = usualLength(u, lines.u), lv = usualLength(v, lines.v);
+  if (isFlat() || !(lu > 0 && lv > 0)) return {1, 1};
+  return {std::min(1.0, kLongCell * lv / lu), std::min(1.0, kLongCell * lu / lv)};
 }
 
 Density::Density(const NurbsSurface& surface, Box2 box) {
@@ -341,8 +353,10 @@ void Density::choose(double tolerance, const Fineness& fineness, Lines& lines) {
   if (isFlat() || fineness.aspect() == Sampling::kNoLimit) return;
   if (lines.u.nodes.size() == 1 && lines.v.nodes.size() == 1) return;
   const double lu = usualLength(u, lines.u), lv = usualLength(v, lines.v);
-  u.shorten(fineness.aspect() * lv, lines.u);
-  v.shorten(fineness.aspect() * lu, lines.v);
+  // Halves are about as near to the aspect as what is a little shorter than this; cells that are nearly square rather stay so.
+  const double aspect = fineness.aspect(), most = std::min(kHalfway, 0.6 + 0.45 * aspect) * aspect;
+  u.shorten(most * lv, lines.u);
+  v.shorten(most * lu, lines.v);
 }
 
 }  // namespace sf

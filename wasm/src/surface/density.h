@@ -55,6 +55,8 @@ class LineTree {
   double error(uint32_t node) const { return nodes_[node].error; }
   double twist(uint32_t node) const { return nodes_[node].twist; }
   bool isFlat() const { return isFlat_; }
+  /// The breaks between the ends.
+  const std::vector<double>& creases() const { return creases_; }
 
  private:
   struct Node {
@@ -69,6 +71,7 @@ class LineTree {
   void refine(F&& isHalved, Choice& choice);
 
   std::vector<Column> columns_;
+  std::vector<double> creases_;
   std::vector<uint32_t> open_;  // of one call
   std::vector<Node> nodes_;
   uint32_t roots_ = 0;
@@ -91,8 +94,13 @@ class Density {
   };
   void choose(double tolerance, const Fineness& fineness, Lines& lines);
 
-  /// How long an edge's intervals may be beside such cells: as the longer side of a usual cell. Infinite where there is one.
+  /// How long an edge's intervals may be beside such cells: as some of the longer sides of a usual cell. Infinite where there is
+  /// one cell.
   double longest(const Lines& lines) const;
+
+  /// How much shorter a domain is to be taken along u, x, and along v, y, so that cells far longer than wide do not seem so:
+  /// triangles beside them are then as long.
+  Point2 shortening(const Lines& lines) const;
 
   LineTree u, v;
   /// Whether the surface is a plane within the box.

@@ -17,7 +17,14 @@ namespace {
 
 /// Corners of one vertex within this share of the domain are one.
 constexpr double kSameCorner = 1e-6;
-constexpr int kMostRefinings = 8, kMostRounds = 16;
+constexpr int kMostRefinings = 8, kMostRounds = 64;
+/// An edge that crosses a crease nearer to one of its ends than this, as a share of it, ends there.
+constexpr double kNearEnd = 1e-3;
+/// Shorter intervals of an edge, as a share of it, are not halved because its surface is off.
+constexpr double kShortInterval = 1e-8;
+constexpr int kMostFlipRounds = 3;
+/// Squares of sines: angles above 25 degrees are good, and one is better than another if it is so by a tenth.
+constexpr double kGoodAngle = 0.18, kBetter = 1.2;
 /// A band that changes in more places than this is made anew.
 constexpr size_t kMostChanges = 64;
 
@@ -101,7 +108,9 @@ struct FaceMesher::State {
   // Of the face at hand.
   uint32_t face = 0;
   const NurbsSurface* surface = nullptr;
+  const EdgeSamples* samples = nullptr;
   Rings rings;
+  std::vector<uint32_t> ringOf;  // [vertices] the place in the rings, if it is wanted
   Point2 origin{}, scale{1, 1};
   FaceMesh* mesh = nullptr;
   Density* density = nullptr;
@@ -125,7 +134,7 @@ struct FaceMesher::State {
   Point2 unscaled(Point2 p) const { return {origin.x + p.x / scale.x, origin.y + p.y / scale.y}; }
 
   Point2 sharedCorner(uint32_t vertex, Point2 uv);
-  void begin(uint32_t f, const EdgeSamples& samples, FaceMesh& out);
+  void begin(uint32_t f, const EdgeSamples& all, FaceMesh& out);
   FaceProblem problemOf(const Outcome& outcome) const;
   FaceProblem checkRings();
   bool meshGrid(Density::Lines& lines);
@@ -137,7 +146,10 @@ struct FaceMesher::State {
   FaceProblem triangulateBand();
   bool patchBand();
   void findChanges(std::vector<Box2>& changed) const;
-  bool refineBand();
+  FaceProblem refineBand();
+  bool edgeIsOff(uint32_t from, uint32_t to, FaceProblem& problem);
+  void improveAngles();
+  Point2 splitOf(uint32_t a, uint32_t b, double& share) const;
   double deviationAt(Point2 uv, Vec3 at) const;
   uint32_t addVertex(Point2 uv, Vec3 at, Vec3 normal, FaceMesh::Role role);
   void finish();
@@ -175,8 +187,8 @@ Point2 FaceMesher::State::sharedCorner(uint32_t vertex, Point2 uv) {
 }
 
 /// Lays out the rings, and their vertices in the mesh.
-void FaceMesher::State::begin(uint32_t f, const EdgeSamples& samples, FaceMesh& out) {
-  face = f, mesh = &out;
+void FaceMesher::State::begin(uint32_t f, const EdgeSamples& all, FaceMesh& out) {
+  face = f, mesh = &out, samples = &all;
   if (!updates) out.clear();
   surface = model.faces[f].surface.get();
   isMet.assign(out.positions.size(), 0);
@@ -199,13 +211,13 @@ void FaceMesher::State::begin(uint32_t f, const EdgeSamples& samples, FaceMesh& 
     for (uint32_t u = loop.firstUse; u < loop.endUse; ++u) {
       const ModelUse& use = model.uses[u];
       const ModelEdge& edge = model.edges[use.edge];
-      const std::vector<EdgeSample>& of = samples.of[use.edge];
+      const std::vector<EdgeSample>& of = all.of[use.edge];
       const uint32_t count = uint32_t(of.size());
       firsts.push_back(uint32_t(uvs.size()));
       for (uint32_t k = 0; k + 1 < count; ++k) {
         const uint32_t s = use.isReversed ? count - 1 - k : k;
         Point2 uv = use.curve.at(of[s].t);
-        uint32_t place = samples.firstPlace[use.edge] + s - 1;
+        uint32_t place = all.firstPlace[use.edge] + s - 1;
         if (k == 0) {
           // Where two uses meet, in the middle between them.
           const uint32_t b = u == loop.firstUse ? loop.endUse - 1 : u - 1;
@@ -663,21 +675,66 @@ bool FaceMesher::State::patchBand() {
   return true;
 }
 
+/// Whether the edge of the model from one vertex to the next of a ring is off the surface in its middle.
+bool FaceMesher::State::edgeIsOff(uint32_t from, uint32_t to, FaceProblem& problem) {
+  if (ringOf.empty()) {
+    ringOf.assign(mesh->positions.size(), kNone);
+    for (uint32_t i = 0; i < rings.vertex.size(); ++i) ringOf[rings.vertex[i]] = i;
+  }
+  const uint32_t i = from < ringOf.size() ? ringOf[from] : kNone;
+  if (i == kNone) return false;
+  const size_t ring =
+      size_t(std::upper_bound(rings.starts.begin(), rings.starts.end(), i) - rings.starts.begin());
+  const uint32_t next = i + 1 == rings.starts[ring] ? rings.starts[ring - 1] : i + 1;
+  if (rings.vertex[next] != to) return false;
+  const uint32_t use = rings.use[i], sample = rings.sample[i];
+  const std::vector<EdgeSample>& of = samples->of[model.uses[use].edge];
+  const ModelEdge& edge = model.edges[model.uses[use].edge];
+  if (of[sample + 1].t - of[sample].t < kShortInterval * (edge.to - edge.from)) return false;
+  const double t = 0.5 * (of[sample].t + of[sample + 1].t);
+  const double off =
+      deviationAt(model.uses[use].curve.at(t), middle(of[sample].at, of[sample + 1].at));
+  if (off <= tolerance + edge.tolerance) return false;
+  problem.kind = FaceProblem::Kind::EdgeOff;
+  problem.use = use, problem.sample = sample;
+  return true;
+}
+
+/// Where an edge of the band is to be looked at and divided: where it crosses a crease, or in the middle.
+///   share  out: of the way from a to b
+Point2 FaceMesher::State::splitOf(uint32_t a, uint32_t b, double& share) const {
+  const Point2 p = mesh->uvs[a], q = mesh->uvs[b];
+  const auto crosses = [&](double from, double to, double crease) {
+    share = (crease - from) / (to - from);
+    return share > kNearEnd && share < 1 - kNearEnd;
+  };
+  for (const double crease : density->u.creases())
+    if (p.x != q.x && crosses(p.x, q.x, crease)) return {crease, p.y + share * (q.y - p.y)};
+  for (const double crease : density->v.creases())
+    if (p.y != q.y && crosses(p.y, q.y, crease)) return {p.x + share * (q.x - p.x), crease};
+  share = 0.5;
+  return unscaled(middle(bandAt[a], bandAt[b]));
+}
+
 /// Adds points inside until triangles of the band are near the surface.
-bool FaceMesher::State::refineBand() {
+FaceProblem FaceMesher::State::refineBand() {
+  FaceProblem ended, off;
+  ended.kind = FaceProblem::Kind::Ended;
+  ringOf.clear();
   band.unused.clear(), band.edgeFrom.clear();
   bandAt.resize(mesh->positions.size());
   for (uint32_t v = 0; v < bandAt.size(); ++v) bandAt[v] = scaled(mesh->uvs[v]);
-  if (!findTwins(band.corners, uint32_t(bandAt.size()), *work, band.twins)) return false;
+  if (!findTwins(band.corners, uint32_t(bandAt.size()), *work, band.twins)) return ended;
   if (density->isFlat()) {
     std::fill(bandOff.begin(), bandOff.end(), 0);
-    return true;
+    improveAngles();
+    return {};
   }
   const auto at = [&](uint32_t v) -> Vec3 { return mesh->positions[v]; };
   known = band.corners;  // corners of the triangles whose deviation is known
   for (size_t t = 0; t < bandOff.size(); ++t)
     if (bandOff[t] > tolerance) known[3 * t] = kNone;
-  const size_t most = 64 + 4 * bandAt.size();
+  const size_t mostVertices = 64 + 4 * bandAt.size();
   const double quick = 0.25 * tolerance;
   struct Spot {
     uint32_t half;  // of the triangle, or of the edge
@@ -698,9 +755,9 @@ bool FaceMesher::State::refineBand() {
       if (!isNew[t]) continue;
       const uint32_t* c = &band.corners[3 * t];
       Spot worst{kNone, {c[0], c[1], c[2]}, false, tolerance};
-      double off = 0;
+      double most = 0;
       const auto consider = [&](uint32_t half, bool onEdge, double here) {
-        off = std::max(off, here);
+        most = std::max(most, here);
         if (here > worst.off) worst.half = half, worst.onEdge = onEdge, worst.off = here;
       };
       double bound = 0;
@@ -710,8 +767,9 @@ bool FaceMesher::State::refineBand() {
         const double edge = density->bound(mesh->uvs[a], mesh->uvs[b]);
         bound = std::max(bound, edge);
         if (twin == kNone || (twin < h && isNew[twin / 3]) || edge < quick) continue;
-        const Point2 uv = unscaled(middle(bandAt[a], bandAt[b]));
-        consider(h, true, deviationAt(uv, middle(at(a), at(b))));
+        double share;
+        const Point2 uv = splitOf(a, b, share);
+        consider(h, true, deviationAt(uv, at(a) + share * (at(b) - at(a))));
       }
       const auto pole = [&](int k) { return mesh->poles[c[k]]; };
       if (bound >= quick && pole(0) != pole(1) && pole(1) != pole(2) && pole(2) != pole(0)) {
@@ -720,14 +778,18 @@ bool FaceMesher::State::refineBand() {
         const Vec3 centroid = (1.0 / 3) * (at(c[0]) + at(c[1]) + at(c[2]));
         consider(3 * t, false, deviationAt(uv, centroid));
       }
-      bandOff[t] = off;
-      if (worst.half != kNone)
-        spots.push_back(worst);
-      else
+      bandOff[t] = most;
+      if (worst.half == kNone) {
         std::copy(c, c + 3, &known[3 * t]);
+        continue;
+      }
+      spots.push_back(worst);
+      // Points inside are of no use where it is the edge that is off.
+      for (uint32_t k = 0; k < 3 && !worst.onEdge; ++k)
+        if (band.twins[3 * t + k] == kNone && edgeIsOff(c[k], c[(k + 1) % 3], off)) return off;
     }
-    if (spots.empty() || bandAt.size() > most || round + 1 == kMostRounds) break;
-    if (!work->tick(400 * spots.size() + 300 * triangles)) return false;
+    if (spots.empty() || bandAt.size() > mostVertices || round + 1 == kMostRounds) break;
+    if (!work->tick(400 * spots.size() + 300 * triangles)) return ended;
     for (const Spot& spot : spots) {
       // What an earlier insertion of the round has changed is looked at again in the next one.
       const uint32_t t = spot.half / 3;
@@ -762,8 +824,52 @@ bool FaceMesher::State::refineBand() {
       known.resize(band.corners.size(), kNone);
     }
   }
-  for (const double off : bandOff) mesh->deviation = std::max(mesh->deviation, off);
-  return work->going();
+  improveAngles();
+  for (const double here : bandOff) mesh->deviation = std::max(mesh->deviation, here);
+  return work->going() ? FaceProblem{} : ended;
+}
+
+/// Flips edges of the band where the least angle of both triangles in space becomes larger, and the new edge is near the
+/// surface. Delaunay triangles of the domain are such of space only where it is not stretched there.
+void FaceMesher::State::improveAngles() {
+  const auto at = [&](uint32_t v) -> Vec3 { return mesh->positions[v]; };
+  // The square of the sine of the least angle: twice the area over the two longer sides.
+  const auto quality = [&](uint32_t a, uint32_t b, uint32_t c) {
+    const Vec3 p = at(a), q = at(b), r = at(c);
+    const Vec3 n = cross(q - p, r - p);
+    const Vec3 d = q - p, e = r - q, f = p - r;
+    const double x = dot(d, d), y = dot(e, e), z = dot(f, f);
+    const double shortest = std::min({x, y, z}), product = x * y * z;
+    return product > 0 ? dot(n, n) * shortest / product : 0;
+  };
+  band.at = bandAt, band.metric = bandAt;
+  for (int round = 0; round < kMostFlipRounds; ++round) {
+    bool any = false;
+    for (uint32_t h = 0; h < band.corners.size(); ++h) {
+      const uint32_t g = band.twins[h];
+      if (g == kNone || g < h) continue;
+      const uint32_t a = band.from(h), b = band.to(h), c = band.apex(h), d = band.apex(g);
+      const auto pole = [&](uint32_t v) { return mesh->poles[v] != v; };
+      if (pole(a) || pole(b) || pole(c) || pole(d)) continue;
+      const double before = std::min(quality(a, b, c), quality(b, a, d));
+      if (before > kGoodAngle) continue;
+      const double after = std::min(quality(c, d, b), quality(d, c, a));
+      if (after <= kBetter * before) continue;
+      if (!(turn(bandAt[c], bandAt[d], bandAt[b]) > 0 && turn(bandAt[d], bandAt[c], bandAt[a]) > 0))
+        continue;
+      double off = std::max(bandOff[h / 3], bandOff[g / 3]);
+      if (density->bound(mesh->uvs[c], mesh->uvs[d]) >= 0.25 * tolerance) {
+        const Point2 uv = unscaled(middle(bandAt[c], bandAt[d]));
+        const double here = deviationAt(uv, middle(at(c), at(d)));
+        if (here > tolerance) continue;
+        off = std::max(off, here);
+      }
+      band.flip(h);
+      bandOff[h / 3] = bandOff[g / 3] = off;
+      any = true;
+    }
+    if (!any) break;
+  }
 }
 
 /// Triangles and strips of the whole face, on its own side, and what the next update begins with.
@@ -813,6 +919,8 @@ FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& 
   std::vector<double> us, vs;
   density.u.lines(lines.u, us), density.v.lines(lines.v, vs);
   s.origin = {us[0], vs[0]}, s.scale = {positive(density.speedU()), positive(density.speedV())};
+  const Point2 shorter = density.shortening(lines);
+  s.scale.x *= shorter.x, s.scale.y *= shorter.y;
   for (size_t i = 0; i < s.rings.at.size(); ++i) s.rings.at[i] = s.scaled(s.rings.uvs[i]);
   FaceProblem problem;
   problem.kind = FaceProblem::Kind::Ended;
@@ -821,7 +929,8 @@ FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& 
     problem = {};
     if (!s.updates || !s.patchBand()) problem = s.triangulateBand();
     if (problem.kind == FaceProblem::Kind::None) {
-      if (s.refineBand()) s.finish();
+      problem = s.refineBand();
+      if (problem.kind == FaceProblem::Kind::None) s.finish();
       if (!work.going()) problem.kind = FaceProblem::Kind::Ended;
     }
   }

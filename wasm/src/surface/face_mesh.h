@@ -56,8 +56,9 @@ struct EdgeSamples {
 
 /// What keeps a face from being meshed.
 struct FaceProblem {
-  enum class Kind { None, Crossing, Ended } kind = Kind::None;
-  // Of a crossing: the uses, counted in the model, and the sample in each where the interval at fault begins.
+  // EdgeOff: an edge has a bend that was not seen when it was measured; it needs one sample more.
+  enum class Kind { None, Crossing, EdgeOff, Ended } kind = Kind::None;
+  // The uses, counted in the model, and the sample in each where the interval at fault begins.
   SurfaceFault fault = SurfaceFault::Degenerate;
   uint32_t use = kNone, sample = kNone, otherUse = kNone, otherSample = kNone;
   uint32_t loop = kNone, otherLoop = kNone;  // counted in the face

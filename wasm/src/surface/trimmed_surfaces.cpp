@@ -74,6 +74,7 @@ bool TrimmedSurfaces::settle(uint32_t face, const FaceProblem& problem, bool may
   };
   const uint32_t firstLoop = model_.faces[face].firstLoop;
   if (problem.use != kNone) halve(problem.use, problem.sample);
+  if (problem.kind == FaceProblem::Kind::EdgeOff) return isHalved;
   if (problem.otherUse != kNone) halve(problem.otherUse, problem.otherSample);
   const bool isWhole = problem.use == kNone || problem.fault == SurfaceFault::Degenerate;
   if (isWhole && problem.loop != kNone && problem.fault == SurfaceFault::Degenerate) {
