@@ -207,9 +207,9 @@ export interface Tessellation {
   readonly strips: Uint32Array;
   /** `[strips + 1]` */
   readonly stripStarts: Uint32Array;
-  /** Vertices along each edge, of one of its faces, one edge after the other. */
+  /** Vertices along each edge from its beginning to its end, of one of its faces, one edge after the other. Poles have none. */
   readonly edges: Uint32Array;
-  /** `[edges + 1]`; edges that no face uses have no vertices. */
+  /** `[edges + 1]`; edges that no face uses have no vertices. Faces without loops get edges, which follow those given. */
   readonly edgeStarts: Uint32Array;
   /** `[n]` for each vertex the first one at the same place: its own number, or that of a vertex of another face or of a seam. */
   readonly same: Uint32Array;
