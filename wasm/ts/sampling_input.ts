@@ -172,16 +172,17 @@ function leftOut({ code, message, face, loop, use, otherLoop, edge }: SoapfilmEr
 
 function reportOf({ report, face, fault, value }: SurfaceReport): TessellationReport[] {
   const name = kSurfaceReportChoices[report];
+  const place = face < 0 ? {} : { face };
   switch (name) {
     case 'left-out':
       return leftOut(bareFaultError(fault, face));
     case 'crossing-samples':
-      return [{ report: name, face, count: value }];
+      return [{ report: name, ...place, count: value }];
     case 'tolerance-raised':
       return [{ report: name, tolerance: value }];
     case 'above-tolerance':
       return [{ report: name, face, deviation: value }];
     case 'time-over':
-      return [face < 0 ? { report: name } : { report: name, face }];
+      return [{ report: name, ...place }];
   }
 }

@@ -178,8 +178,8 @@ export interface Sampling {
 export type TessellationReport =
   /** A face has a fault and no triangles. `message` and the place say what is wrong. */
   | ({ readonly report: 'left-out'; readonly face: number; readonly code: ErrorCode; readonly message: string } & ErrorPlace)
-  /** Samples of trimming curves of the face crossed, though the curves do not: `count` of their intervals were halved. */
-  | { readonly report: 'crossing-samples'; readonly face: number; readonly count: number }
+  /** Samples of trimming curves crossed, though the curves do not: `count` intervals were halved, of a face or of all. */
+  | { readonly report: 'crossing-samples'; readonly face?: number; readonly count: number }
   /** `maxTriangles` would have been exceeded: the `tolerance` kept to. */
   | { readonly report: 'tolerance-raised'; readonly tolerance: number }
   /** The face is farther off its surface than asked for, by this `deviation`. */
