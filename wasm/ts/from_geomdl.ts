@@ -47,7 +47,9 @@ export function fromGeomdl(json: unknown): Model {
   return guarded('bad-file', 'file.shape.data', () => {
     if (!Array.isArray(data)) throw mustBe('bad-file', 'file.shape.data', 'an array', data);
     const edges: ModelEdge[] = [];
-    const faces = (data as readonly GeomdlSurface[]).map((surface, number) => faceOf(surface, number, edges));
+    const faces: ModelFace[] = [];
+    // By index: one that is missing is an error.
+    for (let i = 0; i < data.length; i++) faces.push(faceOf(data[i] as GeomdlSurface, i, edges));
     return { faces, edges };
   });
 }

@@ -2,8 +2,13 @@
 import { guarded, mustBe } from './check.js';
 import type { Face } from './surface_types.js';
 
-/** A `NURBSSurface` of `three/addons/curves/NURBSSurface.js`. Its control points are not multiplied by their weights `w`. */
+/** A `NURBSSurface` of `three/addons/curves/NURBSSurface.js`, whose types tell nothing of its fields. */
 export interface ThreeSurface {
+  getPoint(...args: never[]): unknown;
+}
+
+/** Control points are not multiplied by their weights `w`. */
+interface Fields {
   readonly degree1: number;
   readonly degree2: number;
   readonly knots1: readonly number[];
@@ -19,7 +24,7 @@ export function fromThree(nurbsSurface: ThreeSurface): Face {
   return guarded('bad-model', 'nurbsSurface', () => {
     const given: unknown = nurbsSurface;
     if (typeof given !== 'object' || given === null) throw mustBe('bad-model', 'nurbsSurface', 'a NURBSSurface of three.js', given);
-    const { degree1, degree2, knots1, knots2, controlPoints } = nurbsSurface;
+    const { degree1, degree2, knots1, knots2, controlPoints } = given as Fields;
     const points = controlPoints.flatMap((row) => Array.from(row));
     return {
       surface: {

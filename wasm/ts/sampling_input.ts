@@ -67,7 +67,7 @@ export function tessellationWorkOf(given: Given<Sampling>, { box }: Pick<OpenedM
     relative === undefined ? Infinity : positiveOf('relative', relative) * (diagonal || 1),
   );
   const isOpen = tolerance === undefined && relative === undefined && camera === undefined;
-  const turn = angle ?? (camera === undefined ? kDefaultAngle : Infinity);
+  const turn = angle === undefined ? (camera === undefined ? kDefaultAngle : Infinity) : angle;
   return {
     settings: {
       tolerance: Math.max(Number.MIN_VALUE, isOpen ? kDefaultRelative * (diagonal || 1) : finest),
