@@ -154,7 +154,7 @@ export const kTwoHoles = {
 };
 
 const kTriangle = [[0.25, 0.25], [0.75, 0.25], [0.5, 0.75]];
-const { edges: kPlateEdges, ...kPlateFace } = plate([kTriangle]);
+const { edges: kPlateEdges = [], ...kPlateFace } = plate([kTriangle]);
 /** A face with a hole. */
 export const kPlate = { faces: [kPlateFace], edges: kPlateEdges };
 const kCamera = { eye: [0, 0, 9], viewProjection: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -0.1, 0, 0, 0, 0, 1], width: 100, height: 100, pixels: 1 };
@@ -520,7 +520,7 @@ export function modelSlots(
       camera: ['missing'],
       onProgress: kCallback,
       ...more,
-    }).map((slot) => ({ ...slot, names: /options/.exec(slot.names.source) ? /\bsampling\b|cannot be read/ : slot.names })),
+    }),
     ...slots('update, camera', ['bad-option'], [
       ...(['eye', 'viewProjection', 'width', 'height', 'pixels'] as const).map((name): Row => {
         const valid: readonly Kind[] = name === 'eye' ? ['Float32Array', 'Float64Array'] : name === 'viewProjection' ? [] : name === 'pixels' ? ['missing', ...kPositive] : kPositive;

@@ -93,7 +93,7 @@ class Trimmed {
 
   #mesh<T>(sampling: Sampling, make: (work: TessellationWork) => T): T {
     this.#keeper.alive();
-    const work = tessellationWorkOf(optionsOf(sampling, kSampling, 'sampling'), this.#keeper.opened, this.#limits);
+    const work = tessellationWorkOf(optionsOf(sampling, kSampling), this.#keeper.opened, this.#limits);
     const made = make(work);
     tellLast(() => work.onProgress?.(1));
     return made;
