@@ -3,7 +3,8 @@ import { load, SoapfilmError, type ErrorCode } from 'soapfilm';
 import { TrimmedModel, TrimmedSurface, type EdgeUse, type Face, type FaceLoop, type Model, type ModelEdge, type NurbsSurface } from 'soapfilm/surfaces';
 import { beforeAll, describe, expect, test } from 'vitest';
 import { errorOf } from '../support/errors.js';
-import { box, lineOf, measure, modelOf, patchOf, plate, polygonOf } from '../support/models.js';
+import { Random } from '../support/generators.js';
+import { box, lineOf, measure, modelOf, patchOf, plate, polygonOf, tube } from '../support/models.js';
 
 beforeAll(() => load({ parts: ['surfaces'] }));
 
@@ -133,5 +134,69 @@ describe('faults', () => {
     const opened = new TrimmedSurface(plate());
     expect(opened.tessellate().triangles).toHaveLength(6);
     opened.dispose();
+  });
+});
+
+describe('models spoilt at random', () => {
+  const kWrong: readonly unknown[] = [null, 0, -1, 0.5, 2, 3, 1e-9, 1e160, 2 ** 32, -0, true, 'x', [], {}, [0], [[0, 0, 0]], [1, 0]];
+
+  /** A copy of which one thing, or a few, are other things. */
+  function spoilt(model: Model, random: Random): Model {
+    const copy = structuredClone(model);
+    for (let count = 1 + random.below(3); count > 0; count--) {
+      let at = copy as Record<string, unknown>;
+      for (let depth = 0; depth < 12; depth++) {
+        const keys = Object.keys(at);
+        if (keys.length === 0) break;
+        const key = keys[random.below(keys.length)];
+        const below = at[key];
+        if (typeof below === 'object' && below !== null && !random.chance(0.05)) {
+          at = below as Record<string, unknown>;
+          continue;
+        }
+        const kind = random.below(4);
+        if (kind === 0 && Array.isArray(at)) at.splice(Number(key), 1);
+        else if (kind === 0) Reflect.deleteProperty(at, key);
+        else if (kind === 1 && Array.isArray(at)) at.push(below);
+        else if (kind === 2 && typeof below === 'number') at[key] = below + random.range(-1, 1);
+        else at[key] = kWrong[random.below(kWrong.length)];
+        break;
+      }
+    }
+    return copy;
+  }
+
+  const models: [string, Model][] = [
+    ['a plate', modelOf(plate([kLow, kHigh]))],
+    ['a box', box()],
+    ['a tube', tube(1, true)],
+    ['instances', { ...box(), parts: { tube: tube(1, true) }, instances: [{ part: 'tube', matrix: [1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0] }] }],
+  ];
+  test.each(models)('%s: is meshed, or refused by code (seed 17)', (_, model) => {
+    const random = new Random(17);
+    const codes = new Map<string, number>();
+    for (let i = 0; i < 400; i++) {
+      const bad = spoilt(model, random);
+      let code = 'fine';
+      for (const skipInvalid of [false, true]) {
+        try {
+          const opened = new TrimmedModel(bad, { skipInvalid });
+          const mesh = opened.tessellate({ relative: 1e-2, maxTriangles: 1e5, maxSeconds: 20 });
+          opened.dispose();
+          for (const numbers of [mesh.positions, mesh.normals, mesh.uvs]) {
+            if (!numbers.every(Number.isFinite)) expect.fail(`${i}: a number of the mesh is not finite: ${JSON.stringify(bad)}`);
+          }
+          const vertices = mesh.positions.length / 3;
+          if (mesh.triangles.some((vertex) => vertex >= vertices)) expect.fail(`${i}: a triangle has no such vertex`);
+        } catch (error) {
+          if (!(error instanceof SoapfilmError)) throw error;
+          if (['crashed', 'out-of-memory'].includes(error.code)) expect.fail(`${i}: ${error.message}: ${JSON.stringify(bad)}`);
+          if (!skipInvalid) code = error.code;
+        }
+      }
+      codes.set(code, (codes.get(code) ?? 0) + 1);
+    }
+    expect(codes.size).toBeGreaterThan(5);
+    expect(codes.get('fine')).toBeGreaterThan(5);
   });
 });
