@@ -359,6 +359,8 @@ void TrimmedSurfaces::findSame(Tessellation& result) const {
       const uint32_t k = usesOf_[i] - model_.loops[model_.faces[use.face].firstLoop].firstUse;
       for (uint32_t v = mesh.useStarts[k]; v < mesh.useStarts[k + 1]; ++v)
         result.edges.push_back(bases[use.face] + mesh.useVertices[v]);
+      if (use.isReversed)
+        std::reverse(result.edges.begin() + result.edgeStarts.back(), result.edges.end());
       break;
     }
     result.edgeStarts.push_back(uint32_t(result.edges.size()));
