@@ -153,11 +153,22 @@ export const kTwoHoles = {
   faces: Uint32Array.of(0, 2, 1, 0, 1, 3, 0, 3, 2, 4, 6, 5, 4, 5, 7, 4, 7, 6),
 };
 
+const kArrays: readonly Kind[] = [
+  'empty array', 'short array', 'sparse array', 'huge sparse array', 'array of BigInts', 'array of itself', 'throwing array',
+];
 const kTriangle = [[0.25, 0.25], [0.75, 0.25], [0.5, 0.75]];
 const { edges: kPlateEdges = [], ...kPlateFace } = plate([kTriangle]);
 /** A face with a hole. */
 export const kPlate = { faces: [kPlateFace], edges: kPlateEdges };
 const kCamera = { eye: [0, 0, 9], viewProjection: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -0.1, 0, 0, 0, 0, 1], width: 100, height: 100, pixels: 1 };
+
+const kCameraValues: Readonly<Record<keyof typeof kCamera, readonly Kind[]>> = {
+  eye: ['Float32Array', 'Float64Array'],
+  viewProjection: [],
+  width: kPositive,
+  height: kPositive,
+  pixels: ['missing', ...kPositive],
+};
 
 /** A list with one item replaced. */
 const having = (list: readonly unknown[], index: number, value: unknown): unknown[] =>
@@ -461,9 +472,12 @@ export function modelSlots(
       const [around, hole] = face.loops ?? [];
       return { ...face, loops: [around, { uses: [{ ...hole.uses[0], pcurve: { ...hole.uses[0].pcurve, [name]: value } }] }] };
     });
-  const edge = (name: string) => field((face, value) => ({ ...face, edges: (face.edges ?? []).map((given, e) => (e === 2 ? { ...given, [name]: value } : given)) }));
+  const edge = (name: string) =>
+    field((face, value) => ({ ...face, edges: (face.edges ?? []).map((given, e) => (e === 2 ? { ...given, [name]: value } : given)) }));
   const { poles } = kPlate.faces[0].surface;
-  const codes: ErrorCode[] = ['bad-model', 'bad-knots', 'bad-weights', 'not-finite', 'bad-edge', 'bad-domain', 'degenerate', 'edge-apart', 'trims-cross', 'trim-open'];
+  const codes: ErrorCode[] = [
+    'bad-model', 'bad-knots', 'bad-weights', 'not-finite', 'bad-edge', 'bad-domain', 'degenerate', 'edge-apart', 'trims-cross', 'trim-open',
+  ];
   const face = /`model\.faces|[Ff]ace 0/;
   const optional: readonly Kind[] = ['missing', 'null'];
   const instance = (value: object) => open({ instances: [{ part: box(), ...value }] });
@@ -522,10 +536,9 @@ export function modelSlots(
       ...more,
     }),
     ...slots('update, camera', ['bad-option'], [
-      ...(['eye', 'viewProjection', 'width', 'height', 'pixels'] as const).map((name): Row => {
-        const valid: readonly Kind[] = name === 'eye' ? ['Float32Array', 'Float64Array'] : name === 'viewProjection' ? [] : name === 'pixels' ? ['missing', ...kPositive] : kPositive;
-        return [`camera.${name}`, (v) => on((model) => model.update({ camera: { ...kCamera, [name]: v } }))(undefined), valid];
-      }),
+      ...Object.entries(kCameraValues).map(
+        ([name, valid]): Row => [`camera.${name}`, (v) => on((model) => model.update({ camera: { ...kCamera, [name]: v } }))(undefined), valid],
+      ),
     ]),
     ...slots('movePole', ['bad-option'], [
       ['face', on((model, v) => model.movePole(v, 0, [0, 0, 0])), [], /`face`|pole/],
@@ -555,7 +568,8 @@ export function modelFileSlots(): Slot[] {
   return [
     ...slots('parseTrimmedModel', codes, [
       ['json', parse, [], /`model`|JSON|schema|`model\.schema`/],
-      ['model.faces', (v) => parse({ ...kPlate, schema: 'trimmed-nurbs/1', faces: v }), ['empty array', 'short array', 'sparse array', 'huge sparse array', 'array of BigInts', 'array of itself', 'throwing array'], /faces/],
+      // What is in it is looked at later.
+      ['model.faces', (v) => parse({ ...kPlate, schema: 'trimmed-nurbs/1', faces: v }), kArrays, /faces/],
     ]),
     ...slots('fromGeomdl', codes, [
       ['json', fromGeomdl, [], /`file|JSON/],

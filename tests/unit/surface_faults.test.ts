@@ -55,13 +55,31 @@ const faults: [string, Face, ErrorCode, Place, RegExp][] = [
     { face: 0, loop: 1, use: 0, edge: 4 },
     /^Face 0, loop 1, use 0 \(edge 4\): the knots of a curve of this edge/,
   ],
-  ['knots of an edge that fall', withEdge(2, { curve3d: { degree: 1, knots: [0, 1, 0, 1], poles: [[1, 1, 0], [0, 1, 0]] } }), 'bad-knots', { face: 0, loop: 0, use: 2, edge: 2 }, /edge 2/],
+  [
+    'knots of an edge that fall',
+    withEdge(2, { curve3d: { degree: 1, knots: [0, 1, 0, 1], poles: [[1, 1, 0], [0, 1, 0]] } }),
+    'bad-knots',
+    { face: 0, loop: 0, use: 2, edge: 2 },
+    /edge 2/,
+  ],
   ['a weight of 0', withSurface({ weights: [1, 1, 0, 1] }), 'bad-weights', { face: 0 }, /weight of the surface/],
-  ['a negative weight of a trimming curve', withUse(0, 1, { pcurve: { ...lineOf([1, 0], [1, 1]), weights: [1, -1] } }), 'bad-weights', { face: 0, loop: 0, use: 1, edge: 1 }, /weight of a curve/],
+  [
+    'a negative weight of a trimming curve',
+    withUse(0, 1, { pcurve: { ...lineOf([1, 0], [1, 1]), weights: [1, -1] } }),
+    'bad-weights',
+    { face: 0, loop: 0, use: 1, edge: 1 },
+    /weight of a curve/,
+  ],
   ['too few weights', withSurface({ weights: [1, 1, 1] }), 'bad-weights', { face: 0 }, /`face\.surface\.weights` must be as many as there are poles, 4, not 3/],
   ['a pole that is null', withSurface({ poles: [[0, 0, null], ...kPoles.slice(1)] }), 'not-finite', { face: 0 }, /NaN/],
   ['a knot that is null', withSurface({ knotsU: [0, 0, 1, null] }), 'not-finite', { face: 0 }, /NaN/],
-  ['an infinite pole of a trimming curve', withUse(0, 0, { pcurve: lineOf([0, 0], [Infinity, 0]) }), 'not-finite', { face: 0, loop: 0, use: 0, edge: 0 }, /NaN/],
+  [
+    'an infinite pole of a trimming curve',
+    withUse(0, 0, { pcurve: lineOf([0, 0], [Infinity, 0]) }),
+    'not-finite',
+    { face: 0, loop: 0, use: 0, edge: 0 },
+    /NaN/,
+  ],
   ['an edge that there is none of', withUse(0, 2, { edge: 99 }), 'bad-edge', { face: 0, loop: 0, use: 2 }, /`face\.loops\[0\]\.uses\[2\]\.edge`.*99/],
   ['an edge of a strange number', withUse(0, 2, { edge: -1 }), 'bad-edge', { face: 0, loop: 0, use: 2 }, /-1/],
   ['an edge without curves', withUse(0, 2, { pcurve: null }), 'bad-edge', { face: 0, loop: 0, use: 2, edge: 2 }, /neither `pcurve` nor `curve3d`/],
@@ -71,10 +89,28 @@ const faults: [string, Face, ErrorCode, Place, RegExp][] = [
   ['a trim that leaves the domain', kOutside, 'trim-outside', { face: 0, loop: 0, use: 0, edge: 0 }, /leaves/],
   ['a gap', withUse(0, 1, { pcurve: lineOf([1, 0], [1, 0.9]) }), 'trim-open', { face: 0, loop: 0, use: 1, edge: 1 }, /next one/],
   ['a curve off its edge', withEdge(0, { curve3d: lineOf([0, 0, 0.5], [1, 0, 0.5]) }), 'edge-apart', { face: 0, loop: 0, use: 0, edge: 0 }, /`tolerance`/],
-  ['a hole like an 8', cut([[0.1, 0.1], [0.4, 0.4], [0.4, 0.1], [0.1, 0.4]]), 'trim-self-intersects', { face: 0, loop: 1, use: 0 }, /^Face 0, loop 1, use 0.*crosses itself/],
+  [
+    'a hole like an 8',
+    cut([[0.1, 0.1], [0.4, 0.4], [0.4, 0.1], [0.1, 0.4]]),
+    'trim-self-intersects',
+    { face: 0, loop: 1, use: 0 },
+    /^Face 0, loop 1, use 0.*crosses itself/,
+  ],
   ['holes that cross', withUse(2, 0, { pcurve: polygonOf(kAcross) }), 'trims-cross', { face: 0, loop: 1, otherLoop: 2 }, /crosses loop 2/],
-  ['a hole across the outer loop', { ...cut(kLow), loops: [{ uses: [{ edge: 0, pcurve: polygonOf(kAcross) }] }, ...(plate([kLow]).loops ?? []).slice(1)] }, 'trims-cross', { face: 0, loop: 0, otherLoop: 1 }, /crosses/],
-  ['a hole beside the outer loop', { ...cut(kLow), loops: [{ uses: [{ edge: 0, pcurve: polygonOf(kHigh) }] }, ...(plate([kLow]).loops ?? []).slice(1)] }, 'hole-outside', { face: 0, loop: 1 }, /not inside/],
+  [
+    'a hole across the outer loop',
+    { ...cut(kLow), loops: [{ uses: [{ edge: 0, pcurve: polygonOf(kAcross) }] }, ...(plate([kLow]).loops ?? []).slice(1)] },
+    'trims-cross',
+    { face: 0, loop: 0, otherLoop: 1 },
+    /crosses/,
+  ],
+  [
+    'a hole beside the outer loop',
+    { ...cut(kLow), loops: [{ uses: [{ edge: 0, pcurve: polygonOf(kHigh) }] }, ...(plate([kLow]).loops ?? []).slice(1)] },
+    'hole-outside',
+    { face: 0, loop: 1 },
+    /not inside/,
+  ],
   ['a loop without area', kFlat, 'degenerate', { face: 0, loop: 1 }, /no area/],
   ['loops of which none is the outer one', { ...plate([kLow]), outer: -1 }, 'degenerate', { face: 0 }, /no outer loop/],
 ];
@@ -92,7 +128,8 @@ describe('faults', () => {
     const { edges = [], ...bad } = face;
     const good = box();
     const first = good.edges?.length ?? 0;
-    const moved = { ...bad, loops: (bad.loops ?? []).map(({ uses }) => ({ uses: uses.map((use) => ({ ...use, edge: use.edge < 0 ? use.edge : use.edge + first })) })) };
+    const movedUse = (use: EdgeUse): EdgeUse => ({ ...use, edge: use.edge < 0 ? use.edge : use.edge + first });
+    const moved = { ...bad, loops: (bad.loops ?? []).map(({ uses }) => ({ uses: uses.map(movedUse) })) };
     const model: Model = { faces: [...(good.faces ?? []).slice(0, 2), moved, ...(good.faces ?? []).slice(2)], edges: [...(good.edges ?? []), ...edges] };
     const expected = { code, ...place, face: 2, ...(place.edge !== undefined && { edge: place.edge + first }) };
     expect(errorOf(() => new TrimmedModel(model))).toMatchObject(expected);
@@ -108,7 +145,8 @@ describe('faults', () => {
 
   test('several: the first face counts', () => {
     const { faces = [], edges = [] } = box();
-    const model: Model = { faces: faces.map((face, f) => (f < 3 ? face : { ...face, surface: { ...face.surface, weights: f === 3 ? [1, 1, 1, 0] : [1] } })), edges };
+    const weightsOf = (f: number): number[] | null => (f < 3 ? null : f === 3 ? [1, 1, 1, 0] : [1]);
+    const model: Model = { faces: faces.map((face, f) => ({ ...face, surface: { ...face.surface, weights: weightsOf(f) } })), edges };
     // Those of counts are found before those of numbers.
     expect(errorOf(() => new TrimmedModel(model))).toMatchObject({ code: 'bad-weights', face: 4 });
     const opened = new TrimmedModel(model, { skipInvalid: true });

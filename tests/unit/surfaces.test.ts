@@ -133,7 +133,12 @@ describe('models', () => {
     const { surface, loops = [], edges = [] } = face;
     const typed = {
       ...face,
-      surface: { ...surface, knotsU: Float64Array.from([0, 0, 1, 1]), knotsV: Float32Array.from([0, 0, 1, 1]), poles: surface.poles.map((pole) => Float64Array.from(pole as number[])) },
+      surface: {
+        ...surface,
+        knotsU: Float64Array.from([0, 0, 1, 1]),
+        knotsV: Float32Array.from([0, 0, 1, 1]),
+        poles: surface.poles.map((pole) => Float64Array.from(pole as number[])),
+      },
       edges: edges.map((edge) => ({ ...edge, range: Float32Array.of(0, 1) })),
       loops,
     };
@@ -218,10 +223,11 @@ describe('instances', () => {
   });
 
   test('a mirror: normals stay outside', () => {
-    const mesh = meshOf({ instances: [{ part: box(), matrix: [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0] }] });
+    const mirrored = { instances: [{ part: box(), matrix: [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0] }] };
+    const mesh = meshOf(mirrored);
     expect(measure(mesh)).toEqual({ area: 6, volume: 1, open: 0 });
     expect(boundsOf(mesh)[0]).toEqual([-1, 0]);
-    const twice = { instances: [{ part: { instances: [{ part: box(), matrix: [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0] }] }, matrix: [1, 0, 0, 0, 0, -2, 0, 0, 0, 0, 1, 0] }] };
+    const twice = { instances: [{ part: mirrored, matrix: [1, 0, 0, 0, 0, -2, 0, 0, 0, 0, 1, 0] }] };
     expect(measure(meshOf(twice))).toEqual({ area: 10, volume: 2, open: 0 });
   });
 
@@ -229,7 +235,8 @@ describe('instances', () => {
     const own = box();
     const pair: Model = { instances: [{ part: box() }, { part: box(), matrix: kTurn }] };
     const one: Model = { ...own, instances: [{ part: pair, matrix: kShift }] };
-    const named: Model = { ...own, parts: { box: box(), pair: { parts: [box()], instances: [{ part: 0 }, { part: 0, matrix: kTurn }] } }, instances: [{ part: 'pair', matrix: kShift }] };
+    const numbered: Model = { parts: [box()], instances: [{ part: 0 }, { part: 0, matrix: kTurn }] };
+    const named: Model = { ...own, parts: { box: box(), pair: numbered }, instances: [{ part: 'pair', matrix: kShift }] };
     const mesh = meshOf(one);
     expect(mesh.faceStarts).toHaveLength(19);
     expect(mesh.edgeStarts).toHaveLength(37);

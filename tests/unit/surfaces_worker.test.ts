@@ -8,7 +8,9 @@ import { box, measure, modelOf, plate, tube } from '../support/models.js';
 
 const kHole = [[0.25, 0.25], [0.75, 0.25], [0.5, 0.75]];
 /** Takes a while where it is to be fine. */
-const kMany: Model = { instances: Array.from({ length: 100 }, (_, i): ModelInstance => ({ part: tube(), matrix: [1 + i, 0, 0, 300 * i, 0, 1, 0, 0, 0, 0, 1, 0] })) };
+const kMany: Model = {
+  instances: Array.from({ length: 100 }, (_, i): ModelInstance => ({ part: tube(), matrix: [1 + i, 0, 0, 300 * i, 0, 1, 0, 0, 0, 0, 1, 0] })),
+};
 
 let film: Film;
 beforeAll(async () => {
