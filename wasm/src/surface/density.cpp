@@ -13,7 +13,9 @@ constexpr double kRounding = 1e-12;
 constexpr double kCrease = 1e-3;
 constexpr int kMostLooks = 4;
 /// Most cells of a grid.
-constexpr double kMostCells = 1 << 22;
+constexpr double kMostCells = 1 << 21;
+/// How often what is allowed is doubled at most to keep to that.
+constexpr int kMostTries = 60;
 constexpr double kHalfway = 1.38;
 /// Cells up to this aspect have triangles beside them that are as good as can be in space.
 constexpr double kLongCell = 4.5;
@@ -369,15 +371,16 @@ void Density::fillParts(const Fineness& fineness, uint32_t level, uint32_t i, ui
 void Density::choose(const Allowance& wanted, const Fineness& fineness, Lines& lines) {
   // A grid that does not fit into memory is made coarser; that the face is then off is measured and told.
   Allowance allowance = wanted;
-  for (;;) {
-    chooseAny(allowance, fineness, lines);
-    if (double(lines.u.nodes.size()) * double(lines.v.nodes.size()) <= kMostCells) return;
-    allowance = allowance.times(2);
+  double turn = fineness.angle() < kPi ? fineness.angle() : Sampling::kNoLimit;
+  for (int k = 0; k < kMostTries; ++k) {
+    chooseAny(allowance, turn, lines);
+    if (double(lines.u.nodes.size()) * double(lines.v.nodes.size()) <= kMostCells) break;
+    allowance = allowance.times(2), turn *= 2;
   }
+  shapeCells(fineness.aspect(), lines);
 }
 
-void Density::chooseAny(const Allowance& allowance, const Fineness& fineness, Lines& lines) {
-  const double turn = fineness.angle() < kPi ? fineness.angle() : Sampling::kNoLimit;
+void Density::chooseAny(const Allowance& allowance, double turn, Lines& lines) {
   const auto allowedU = [&](double a, double b) { return allowance.betweenU(a, b); };
   const auto allowedV = [&](double a, double b) { return allowance.betweenV(a, b); };
   // The errors of both directions add up: of all ways to share what is allowed, the one with the fewest cells.
@@ -426,11 +429,19 @@ void Density::chooseAny(const Allowance& allowance, const Fineness& fineness, Li
       u.halve(halvedU, lines.u), v.halve(halvedV, lines.v);
     }
   }
-  if (isFlat() || fineness.aspect() == Sampling::kNoLimit) return;
+}
+
+/// Halves intervals that are too long for their width.
+void Density::shapeCells(double aspect, Lines& lines) {
+  if (isFlat() || aspect == Sampling::kNoLimit) return;
   if (lines.u.nodes.size() == 1 && lines.v.nodes.size() == 1) return;
   const double lu = usualLength(u, lines.u), lv = usualLength(v, lines.v);
+  if (!(lu > 0 && lv > 0)) return;
   // Halves are about as near to the aspect as what is a little shorter than this; cells that are nearly square rather stay so.
-  const double aspect = fineness.aspect(), most = std::min(kHalfway, 0.6 + 0.45 * aspect) * aspect;
+  double most = std::min(kHalfway, 0.6 + 0.45 * aspect) * aspect;
+  // Where that would be too many, longer cells.
+  const double cells = double(lines.u.nodes.size()) * double(lines.v.nodes.size());
+  most = std::max(most, std::max(lu / lv, lv / lu) * 2 * cells / kMostCells);
   u.shorten(most * lv, lines.u);
   v.shorten(most * lu, lines.v);
 }

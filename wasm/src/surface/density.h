@@ -124,7 +124,8 @@ class Density {
     double radius;
   };
 
-  void chooseAny(const Allowance& allowance, const Fineness& fineness, Lines& lines);
+  void chooseAny(const Allowance& allowance, double turn, Lines& lines);
+  void shapeCells(double aspect, Lines& lines);
   void findBalls(const NurbsSurface& surface);
   void fillParts(const Fineness& fineness, uint32_t level, uint32_t i, uint32_t j,
                  std::vector<double>& parts) const;

@@ -21,6 +21,8 @@ constexpr int kMostRefinings = 8, kMostRounds = 64;
 constexpr double kNearEnd = 1e-3;
 /// Shorter intervals of an edge, as a share of it, are not halved because its surface is off.
 constexpr double kShortInterval = 1e-8;
+/// Memory for a place of the grid, its vertices and triangles, about.
+constexpr double kBytesAPlace = 300;
 constexpr int kMostFlipRounds = 3;
 /// Squares of sines: angles above 25 degrees are good, and one is better than another if it is so by a tenth.
 constexpr double kGoodAngle = 0.18, kBetter = 1.2;
@@ -416,7 +418,9 @@ bool FaceMesher::State::layOut(const Density::Lines& lines) {
   localUs.clear(), localVs.clear();
   for (const double u : us) localUs.push_back((u - origin.x) * scale.x);
   for (const double v : vs) localVs.push_back((v - origin.y) * scale.y);
-  if (!work->tick(20 * us.size() * vs.size())) return false;
+  const uint64_t places = uint64_t(us.size()) * vs.size();
+  if (!work->fits(double(places) * kBytesAPlace)) work->fail(Status::OutOfMemory);
+  if (!work->tick(100 * places + 300 * rings.at.size())) return false;
   trace.run(rings.at, rings.starts, localUs, localVs);
   // Intervals and strips that the last run had too.
   const auto findNew = [](const std::vector<double>& before, const std::vector<double>& now,
@@ -1090,6 +1094,9 @@ FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& 
     if (problem.kind == FaceProblem::Kind::None) {
       problem = s.refineBand();
       if (problem.kind == FaceProblem::Kind::None) s.finish();
+      // All of it at one place, or along a line.
+      if (problem.kind == FaceProblem::Kind::None && mesh.triangles.empty())
+        problem.kind = FaceProblem::Kind::Crossing, problem.fault = SurfaceFault::Degenerate;
       if (!work.going()) problem.kind = FaceProblem::Kind::Ended;
     }
   }

@@ -62,8 +62,7 @@ struct Inversion::Trace {
   }
 };
 
-Inversion::Inversion(const NurbsSurface& surface, double slack)
-    : surface_(surface), slack_(slack) {
+Inversion::Inversion(const NurbsSurface& surface, double slack) : surface_(surface), slack_(slack) {
   const BezierSpans &u = surface.u(), &v = surface.v();
   least_ = {u.breaks()[0], v.breaks()[0]};
   greatest_ = {u.breaks()[u.count()], v.breaks()[v.count()]};
@@ -74,8 +73,7 @@ Inversion::Inversion(const NurbsSurface& surface, double slack)
 
 void Inversion::layGrid() {
   const BezierSpans &u = surface_.u(), &v = surface_.v();
-  const uint32_t most =
-      uint32_t(std::sqrt(kMostGrid / (double(u.count()) * double(v.count()))));
+  const uint32_t most = uint32_t(std::sqrt(kMostGrid / (double(u.count()) * double(v.count()))));
   us_ = cuts(u, std::clamp(most, 1u, u.degree() + 1));
   vs_ = cuts(v, std::clamp(most, 1u, v.degree() + 1));
   grid_.resize(3 * us_.size() * vs_.size());
@@ -162,7 +160,8 @@ Point2 Inversion::step(const TangentPoint& s, Point2 p, Vec3 way) const {
   const double along = dot(longer, shorter) / square;
   const Vec3 rest = shorter - along * longer;
   const double restSquare = dot(rest, rest);
-  const double small = restSquare > kParallel * kParallel * square ? dot(rest, way) / restSquare : 0;
+  const double small =
+      restSquare > kParallel * kParallel * square ? dot(rest, way) / restSquare : 0;
   const double large = dot(longer, way) / square - along * small;
   (isAShort ? du : dv) = small, (isAShort ? dv : du) = large;
   const bool outU = leaves(p.x, least_.x, greatest_.x, period_.x, du),
@@ -266,9 +265,8 @@ bool Inversion::walk(Trace& trace, double t, Point2& at, double to) const {
       left = distance(apex.at, target);
     }
     const Vec3 half = trace.curve.placeAt(0.5 * (t + next));
-    const bool isNear = left <= trace.slack &&
-                        distance(placeAt(0.5 * (at + p)), half) <=
-                            kDetour * distance(here, target) + trace.slack;
+    const bool isNear = left <= trace.slack && distance(placeAt(0.5 * (at + p)), half) <=
+                                                   kDetour * distance(here, target) + trace.slack;
     if (!isNear && level < kMostLevels) {
       open.push_back({0.5 * (t + next), level + 1});
       if (open.back().first == t || open.back().first == next) return false;
@@ -299,7 +297,8 @@ Inversion::Sample Inversion::sampleAt(const Trace& trace, double t, Point2 at) c
   const auto found = std::lower_bound(breaks.begin(), breaks.end(), t);
   if (found != breaks.begin() && found != breaks.end() && *found == t) {
     const Vec3 before = trace.curve.at(t - 1e-9 * (t - *(found - 1))).first;
-    if (length(before - c.first) > 1e-6 * length(c.first)) s.before = step(tangents, middle, before);
+    if (length(before - c.first) > 1e-6 * length(c.first))
+      s.before = step(tangents, middle, before);
   }
   return s;
 }
@@ -324,7 +323,8 @@ bool Inversion::fits(const Trace& trace, Sample& a, Sample& b) const {
   for (int i = 1; i < 6; ++i) {
     const double x = i / 6.0, y = 1 - x;
     const Vec3 target = trace.curve.placeAt(a.t + x * h);
-    const Point2 p = y * y * y * a.at + 3 * x * y * y * p1 + (3 * x * x * y * p2 + x * x * x * b.at);
+    const Point2 p =
+        y * y * y * a.at + 3 * x * y * y * p1 + (3 * x * x * y * p2 + x * x * x * b.at);
     const TangentPoint s = tangentsAt(p);
     const Vec3 way = target - s.at;
     const Point2 d = step(s, clamp(p), way);
@@ -342,8 +342,8 @@ bool Inversion::refine(Trace& trace, Sample a, Sample b, int levels) const {
   if (!trace.work.going()) return false;
   FoundCurve& found = trace.found;
   const double middle = 0.5 * (a.t + b.t);
-  const bool isLast = levels >= kMostLevels || found.breaks.size() > kMostPieces ||
-                      !(a.t < middle && middle < b.t);
+  const bool isLast =
+      levels >= kMostLevels || found.breaks.size() > kMostPieces || !(a.t < middle && middle < b.t);
   if (fits(trace, a, b) || isLast) {
     const double h = (b.t - a.t) / 3;
     if (found.breaks.empty()) found.breaks.push_back(a.t), found.points.push_back(a.at);
@@ -387,7 +387,8 @@ bool Inversion::find(const NurbsCurve& curve, double from, double to, double sla
     std::reverse(trace.way.begin(), trace.way.end());
     trace.way.push_back({at[first], start});
     p = start;
-    for (size_t i = first + 1; i < at.size() && isWhole; ++i) isWhole = walk(trace, at[i - 1], p, at[i]);
+    for (size_t i = first + 1; i < at.size() && isWhole; ++i)
+      isWhole = walk(trace, at[i - 1], p, at[i]);
     if (!isWhole) continue;
     found.breaks.clear(), found.points.clear();
     const auto sample = [&](double t) {

@@ -18,7 +18,8 @@ namespace sf {
 /// Cubic pieces by the parameter of a curve of space. Where that has no corner, they have none.
 struct FoundCurve {
   std::vector<double> breaks;  // [n + 1]
-  std::vector<Point2> points;  // [3n + 1] Bézier points; beyond the domain where the way runs over a seam
+  std::vector<Point2>
+      points;  // [3n + 1] Bézier points; beyond the domain where the way runs over a seam
 };
 
 class Inversion {

@@ -24,10 +24,11 @@ Point2 operator*(double s, Point2 a) { return {s * a.x, s * a.y}; }
 /// A use of a loop, and where its curve can lie.
 struct Placed {
   uint32_t use;
-  bool isGiven = false, isFree = false;  // free: degenerate, it runs wherever its neighbours leave it
-  FoundCurve curve;                      // by the edge's parameter
-  std::vector<Point2> shifts;            // by which it may be moved
-  Point2 from{}, to{};                   // its ends in the order of the loop, not moved
+  bool isGiven = false,
+       isFree = false;         // free: degenerate, it runs wherever its neighbours leave it
+  FoundCurve curve;            // by the edge's parameter
+  std::vector<Point2> shifts;  // by which it may be moved
+  Point2 from{}, to{};         // its ends in the order of the loop, not moved
 };
 
 class LoopFiller {
@@ -75,8 +76,7 @@ bool LoopFiller::place(Placed& p) {
     p.isFree = true;
     return true;
   } else {
-    if (!edge.curve ||
-        !surface_.find(*edge.curve, edge.from, edge.to, slackOf(p), work_, p.curve))
+    if (!edge.curve || !surface_.find(*edge.curve, edge.from, edge.to, slackOf(p), work_, p.curve))
       return false;
     findShifts(p);
     p.from = p.curve.points.front(), p.to = p.curve.points.back();
@@ -94,7 +94,8 @@ bool LoopFiller::liesWithin(const Placed& p, Point2 shift) const {
     const Point2 in{std::clamp(at.x, low.x, high.x), std::clamp(at.y, low.y, high.y)};
     if (in == at) continue;
     const double t = p.curve.breaks[i / 3];
-    if (distance(surface_.placeAt(in), edgeOf(p).curve->placeAt(t)) > 0.5 * slackOf(p)) return false;
+    if (distance(surface_.placeAt(in), edgeOf(p).curve->placeAt(t)) > 0.5 * slackOf(p))
+      return false;
   }
   return true;
 }
@@ -193,8 +194,7 @@ void LoopFiller::tryFrom(size_t i) {
   for (uint32_t k = 0; k < loop_[i].shifts.size(); ++k) {
     chosen_[i] = k;
     const Placed &a = loop_[before], &b = loop_[i];
-    if (i == 0 ||
-        meet(a, a.to + a.shifts[chosen_[before]], b, b.from + b.shifts[k], isFree))
+    if (i == 0 || meet(a, a.to + a.shifts[chosen_[before]], b, b.from + b.shifts[k], isFree))
       tryFrom(i + 1);
   }
 }
@@ -241,10 +241,10 @@ void LoopFiller::joinEnds(size_t ia, size_t ib) {
   const auto middle = [](double x, double y, double from, double to) {
     return x == from || x == to ? x : y == from || y == to ? y : 0.5 * (x + y);
   };
-  const Point2 joint = a.isGiven   ? pa
-                       : b.isGiven ? pb
-                                   : Point2{middle(pa.x, pb.x, low.x, high.x),
-                                            middle(pa.y, pb.y, low.y, high.y)};
+  const Point2 joint =
+      a.isGiven   ? pa
+      : b.isGiven ? pb
+                  : Point2{middle(pa.x, pb.x, low.x, high.x), middle(pa.y, pb.y, low.y, high.y)};
   const auto move = [&](Placed& p, size_t at) {
     if (p.isGiven) return;
     // The point next to it as well: the direction stays.

@@ -378,11 +378,17 @@ bool TrimmedSurfaces::fewEnough(const Sampling& given, const TessellationLimits&
     return double(corners) / 3;
   };
   bool isDone = meshFaces(used, updates, work);
+  // Longer cells before a coarser tolerance.
+  for (int k = 0; isDone && triangles() > limits.maxTriangles && used.aspect < Sampling::kNoLimit;
+       ++k) {
+    used.aspect = k < 2 ? 4 * used.aspect : Sampling::kNoLimit;
+    isDone = meshFaces(used, false, work);
+  }
   // Errors fall with the square of lengths, so about with the number of triangles.
   for (int k = 0; isDone && triangles() > limits.maxTriangles && k < 40; ++k) {
     factor *= std::max(1.15, triangles() / limits.maxTriangles);
     used.tolerance = given.tolerance * factor, used.pixels = given.pixels * factor;
-    used.angle = given.angle * factor, used.aspect = given.aspect * std::sqrt(factor);
+    used.angle = given.angle * factor;
     isDone = meshFaces(used, false, work);
   }
   return isDone;
