@@ -41,6 +41,8 @@ describe('examples', () => {
       '06-extrude.mjs',
       '07-fill-holes.mjs',
       '08-soap-film.mjs',
+      '09-trimmed-surface.mjs',
+      '10-camera.mjs',
     ]);
   });
 
@@ -131,5 +133,25 @@ describe('examples', () => {
     const [, off] = decimals(output);
     expect(off).toBeLessThan(2e-3);
     expect(output).toContain('rings 2 apart: no film between them');
+  });
+
+  test('09-trimmed-surface: within each tolerance, the file a disc with a hole, a bad move refused', async () => {
+    const output = await run('09-trimmed-surface.mjs', 'dome.obj');
+    const lines = output.trim().split('\n');
+    const within = lines.slice(0, 3).map((line) => decimals(line));
+    for (const [tolerance, off] of within) expect(off).toBeLessThanOrEqual(tolerance);
+    expect(lines[3]).toMatch(/^after the move: 1 face changed, off by 0\.00\d+ at most$/);
+    expect(lines[4]).toMatch(/^refused: trim-outside\. Face 0, loop 1, use 0/);
+    const file = await readFile(path.join(consumer.folder, 'dome.obj'), 'utf8');
+    const faces = file.split('\n').filter((line) => line.startsWith('f ')).length;
+    expect(faces).toBeGreaterThan(500);
+    // The rims of the outer loop and the window: an even number, of some each.
+    expect(openEdgesOf(file)).toBeGreaterThan(40);
+  });
+
+  test('10-camera: few faces change in a frame', async () => {
+    const [triangles, changes] = (await run('10-camera.mjs')).trim().split('\n');
+    expect(Number(triangles.split(' ')[0])).toBeGreaterThan(1000);
+    expect(decimals(changes)[0]).toBeLessThan(4);
   });
 });
