@@ -12,6 +12,8 @@ constexpr double kAlong = 1e-7;
 constexpr double kClosed = 1e-4;
 /// A parameter this near to the border of the domain, in its size, lies on it.
 constexpr double kBorder = 1e-9;
+/// How far the way found may leave the domain, in its size.
+constexpr double kOutside = 1e-7;
 /// Most points of the grid.
 constexpr double kMostGrid = 40000;
 /// How many points of the grid are tried as a start.
@@ -325,9 +327,12 @@ bool Inversion::fits(const Trace& trace, Sample& a, Sample& b) const {
     const double x = i / 6.0, y = 1 - x;
     const Vec3 target = trace.curve.placeAt(a.t + x * h);
     const Point2 p = y * y * y * a.at + 3 * x * y * y * p1 + (3 * x * x * y * p2 + x * x * x * b.at);
-    const TangentPoint s = tangentsAt(p);
-    const Vec3 way = target - s.at;
-    const Point2 d = step(s, clamp(p), way);
+    const Point2 within = clamp(p);
+    if (std::fabs(p.x - within.x) > kOutside * size().x ||
+        std::fabs(p.y - within.y) > kOutside * size().y)
+      return false;
+    const TangentPoint s = tangentsAt(within);
+    const Point2 d = step(s, within, target - s.at);
     const bool isAtApex = (a.apex && distance(a.apex->at, target) <= 2 * trace.apexRadius()) ||
                           (b.apex && distance(b.apex->at, target) <= 2 * trace.apexRadius());
     const double along = length(d.x * s.u + d.y * s.v);
