@@ -23,6 +23,12 @@ constexpr int kMostSteps = 30;
 /// Most halvings of a step along the way, and of a piece; and most pieces.
 constexpr int kMostLevels = 24;
 constexpr size_t kMostPieces = 20000;
+/// A piece that is still off after so many halvings crosses a crease of the surface, or its curve is not smooth: from there
+/// on each one may be off this much more, up to that share of what the edge allows.
+constexpr int kUsualLevels = 8;
+constexpr double kRelaxation = 4, kMostAlong = 0.1;
+/// A break of the curve this near to its ends, in its range, is none.
+constexpr double kShortest = 1e-9;
 /// A step is short enough if half of it leads this near to the curve, in its chord.
 constexpr double kDetour = 0.25;
 /// Where the derivatives are so nearly parallel, or one so short, there is but one direction.
@@ -64,8 +70,7 @@ struct Inversion::Trace {
   }
 };
 
-Inversion::Inversion(const NurbsSurface& surface, double slack)
-    : surface_(surface), slack_(slack) {
+Inversion::Inversion(const NurbsSurface& surface, double slack) : surface_(surface), slack_(slack) {
   const BezierSpans &u = surface.u(), &v = surface.v();
   least_ = {u.breaks()[0], v.breaks()[0]};
   greatest_ = {u.breaks()[u.count()], v.breaks()[v.count()]};
@@ -76,8 +81,7 @@ Inversion::Inversion(const NurbsSurface& surface, double slack)
 
 void Inversion::layGrid() {
   const BezierSpans &u = surface_.u(), &v = surface_.v();
-  const uint32_t most =
-      uint32_t(std::sqrt(kMostGrid / (double(u.count()) * double(v.count()))));
+  const uint32_t most = uint32_t(std::sqrt(kMostGrid / (double(u.count()) * double(v.count()))));
   us_ = cuts(u, std::clamp(most, 1u, u.degree() + 1));
   vs_ = cuts(v, std::clamp(most, 1u, v.degree() + 1));
   grid_.resize(3 * us_.size() * vs_.size());
@@ -164,7 +168,8 @@ Point2 Inversion::step(const TangentPoint& s, Point2 p, Vec3 way) const {
   const double along = dot(longer, shorter) / square;
   const Vec3 rest = shorter - along * longer;
   const double restSquare = dot(rest, rest);
-  const double small = restSquare > kParallel * kParallel * square ? dot(rest, way) / restSquare : 0;
+  const double small =
+      restSquare > kParallel * kParallel * square ? dot(rest, way) / restSquare : 0;
   const double large = dot(longer, way) / square - along * small;
   (isAShort ? du : dv) = small, (isAShort ? dv : du) = large;
   const bool outU = leaves(p.x, least_.x, greatest_.x, period_.x, du),
@@ -268,9 +273,8 @@ bool Inversion::walk(Trace& trace, double t, Point2& at, double to) const {
       left = distance(apex.at, target);
     }
     const Vec3 half = trace.curve.placeAt(0.5 * (t + next));
-    const bool isNear = left <= trace.slack &&
-                        distance(placeAt(0.5 * (at + p)), half) <=
-                            kDetour * distance(here, target) + trace.slack;
+    const bool isNear = left <= trace.slack && distance(placeAt(0.5 * (at + p)), half) <=
+                                                   kDetour * distance(here, target) + trace.slack;
     if (!isNear && level < kMostLevels) {
       open.push_back({0.5 * (t + next), level + 1});
       if (open.back().first == t || open.back().first == next) return false;
@@ -301,7 +305,8 @@ Inversion::Sample Inversion::sampleAt(const Trace& trace, double t, Point2 at) c
   const auto found = std::lower_bound(breaks.begin(), breaks.end(), t);
   if (found != breaks.begin() && found != breaks.end() && *found == t) {
     const Vec3 before = trace.curve.at(t - 1e-9 * (t - *(found - 1))).first;
-    if (length(before - c.first) > 1e-6 * length(c.first)) s.before = step(tangents, middle, before);
+    if (length(before - c.first) > 1e-6 * length(c.first))
+      s.before = step(tangents, middle, before);
   }
   return s;
 }
@@ -317,16 +322,21 @@ void Inversion::arrive(const Sample& inside, Sample& end) const {
     end.at.y = inside.at.y + h * slope.y, atEnd.y = slope.y;
 }
 
-bool Inversion::fits(const Trace& trace, Sample& a, Sample& b) const {
+/// Whether a cubic between two samples follows the curve.
+bool Inversion::fits(const Trace& trace, Sample& a, Sample& b, int levels) const {
   if (a.apex && b.apex) return false;
   if (a.apex) arrive(b, a);
   if (b.apex) arrive(a, b);
-  const double h = b.t - a.t, allowed = kAlong * diagonal_;
+  const double usual = kAlong * diagonal_, most = std::max(usual, kMostAlong * trace.slack);
+  const double allowed =
+      std::min(most, usual * std::pow(kRelaxation, std::max(0, levels - kUsualLevels)));
+  const double h = b.t - a.t;
   const Point2 p1 = a.at + (h / 3) * a.after, p2 = b.at - (h / 3) * b.before;
   for (int i = 1; i < 6; ++i) {
     const double x = i / 6.0, y = 1 - x;
     const Vec3 target = trace.curve.placeAt(a.t + x * h);
-    const Point2 p = y * y * y * a.at + 3 * x * y * y * p1 + (3 * x * x * y * p2 + x * x * x * b.at);
+    const Point2 p =
+        y * y * y * a.at + 3 * x * y * y * p1 + (3 * x * x * y * p2 + x * x * x * b.at);
     const Point2 within = clamp(p);
     if (std::fabs(p.x - within.x) > kOutside * size().x ||
         std::fabs(p.y - within.y) > kOutside * size().y)
@@ -347,9 +357,9 @@ bool Inversion::refine(Trace& trace, Sample a, Sample b, int levels) const {
   if (!trace.work.going()) return false;
   FoundCurve& found = trace.found;
   const double middle = 0.5 * (a.t + b.t);
-  const bool isLast = levels >= kMostLevels || found.breaks.size() > kMostPieces ||
-                      !(a.t < middle && middle < b.t);
-  if (fits(trace, a, b) || isLast) {
+  const bool isLast =
+      levels >= kMostLevels || found.breaks.size() > kMostPieces || !(a.t < middle && middle < b.t);
+  if (fits(trace, a, b, levels) || isLast) {
     const double h = (b.t - a.t) / 3;
     if (found.breaks.empty()) found.breaks.push_back(a.t), found.points.push_back(a.at);
     found.breaks.push_back(b.t);
@@ -370,7 +380,7 @@ bool Inversion::find(const NurbsCurve& curve, double from, double to, double sla
   // The curve's own breaks, and on the way there at least a few stops.
   std::vector<double> breaks{from};
   for (const double t : curve.spans().breaks())
-    if (t > from && t < to) breaks.push_back(t);
+    if (t - from > kShortest * (to - from) && to - t > kShortest * (to - from)) breaks.push_back(t);
   breaks.push_back(to);
   const uint32_t stops = breaks.size() < 100 ? 8 : 2;
   std::vector<double> at;
@@ -392,7 +402,8 @@ bool Inversion::find(const NurbsCurve& curve, double from, double to, double sla
     std::reverse(trace.way.begin(), trace.way.end());
     trace.way.push_back({at[first], start});
     p = start;
-    for (size_t i = first + 1; i < at.size() && isWhole; ++i) isWhole = walk(trace, at[i - 1], p, at[i]);
+    for (size_t i = first + 1; i < at.size() && isWhole; ++i)
+      isWhole = walk(trace, at[i - 1], p, at[i]);
     if (!isWhole) continue;
     found.breaks.clear(), found.points.clear();
     const auto sample = [&](double t) {

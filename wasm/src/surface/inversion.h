@@ -18,7 +18,8 @@ namespace sf {
 /// Cubic pieces by the parameter of a curve of space. Where that has no corner, they have none.
 struct FoundCurve {
   std::vector<double> breaks;  // [n + 1]
-  std::vector<Point2> points;  // [3n + 1] Bézier points; beyond the domain where the way runs over a seam
+  std::vector<Point2>
+      points;  // [3n + 1] Bézier points; beyond the domain where the way runs over a seam
 };
 
 class Inversion {
@@ -67,7 +68,7 @@ class Inversion {
   bool walk(Trace& trace, double t, Point2& at, double to) const;
   Sample sampleAt(const Trace& trace, double t, Point2 at) const;
   void arrive(const Sample& inside, Sample& end) const;
-  bool fits(const Trace& trace, Sample& a, Sample& b) const;
+  bool fits(const Trace& trace, Sample& a, Sample& b, int levels) const;
   bool refine(Trace& trace, Sample a, Sample b, int levels) const;
 
   const NurbsSurface& surface_;

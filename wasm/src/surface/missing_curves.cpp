@@ -12,6 +12,8 @@ namespace {
 constexpr double kLargestGap = 0.05;
 /// A curve that leaves the domain by less, in its size, is drawn in if that is within tolerance.
 constexpr double kOverhang = 0.02;
+/// A curve that stays this near to the border, in the domain's size, runs along it.
+constexpr double kBorder = 1e-6;
 /// Most choices that are tried for one loop.
 constexpr uint32_t kMostChoices = 20000;
 /// Bytes of a piece of a curve, with the factors that it is made by.
@@ -22,29 +24,34 @@ Point2 operator-(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
 Point2 operator*(double s, Point2 a) { return {s * a.x, s * a.y}; }
 
 /// Brings a joint that is outside, in one coordinate, to the border. From there the curve cannot lead out: the points beside
-/// the joint go to the border as well. Those of other joints may well lie outside while the curve does not.
+/// the joint go no further. Those of other joints may well lie outside while the curve does not.
 void keepWithin(std::vector<Point2>& points, size_t joint, double low, double high,
                 double Point2::*coordinate) {
   double& at = points[joint].*coordinate;
   if (at > low && at < high) return;
   at = std::clamp(at, low, high);
   const size_t first = joint - (joint > 0), last = std::min(joint + 1, points.size() - 1);
-  const auto leads = [&](size_t i) {
-    const double x = points[i].*coordinate;
-    return x < low || x > high;
-  };
-  if (!leads(first) && !leads(last)) return;
-  // Both of them, so that there is no corner.
-  points[first].*coordinate = points[last].*coordinate = at;
+  double off = 0;
+  bool leadsOut = false;
+  for (const size_t i : {first, last}) {
+    double& x = points[i].*coordinate;
+    leadsOut |= x < low || x > high;
+    x = std::clamp(x, low, high);
+    off = std::max(off, std::fabs(x - at));
+  }
+  // Along the border there is no corner.
+  if (leadsOut && off <= kBorder * (high - low))
+    points[first].*coordinate = points[last].*coordinate = at;
 }
 
 /// A use of a loop, and where its curve can lie.
 struct Placed {
   uint32_t use;
-  bool isGiven = false, isFree = false;  // free: degenerate, it runs wherever its neighbours leave it
-  FoundCurve curve;                      // by the edge's parameter
-  std::vector<Point2> shifts;            // by which it may be moved
-  Point2 from{}, to{};                   // its ends in the order of the loop, not moved
+  bool isGiven = false,
+       isFree = false;         // free: degenerate, it runs wherever its neighbours leave it
+  FoundCurve curve;            // by the edge's parameter
+  std::vector<Point2> shifts;  // by which it may be moved
+  Point2 from{}, to{};         // its ends in the order of the loop, not moved
 };
 
 class LoopFiller {
@@ -92,8 +99,7 @@ bool LoopFiller::place(Placed& p) {
     p.isFree = true;
     return true;
   } else {
-    if (!edge.curve ||
-        !surface_.find(*edge.curve, edge.from, edge.to, slackOf(p), work_, p.curve))
+    if (!edge.curve || !surface_.find(*edge.curve, edge.from, edge.to, slackOf(p), work_, p.curve))
       return false;
     findShifts(p);
     p.from = p.curve.points.front(), p.to = p.curve.points.back();
@@ -111,7 +117,8 @@ bool LoopFiller::liesWithin(const Placed& p, Point2 shift) const {
     const Point2 in{std::clamp(at.x, low.x, high.x), std::clamp(at.y, low.y, high.y)};
     if (in == at) continue;
     const double t = p.curve.breaks[i / 3];
-    if (distance(surface_.placeAt(in), edgeOf(p).curve->placeAt(t)) > 0.5 * slackOf(p)) return false;
+    if (distance(surface_.placeAt(in), edgeOf(p).curve->placeAt(t)) > 0.5 * slackOf(p))
+      return false;
   }
   return true;
 }
@@ -210,8 +217,7 @@ void LoopFiller::tryFrom(size_t i) {
   for (uint32_t k = 0; k < loop_[i].shifts.size(); ++k) {
     chosen_[i] = k;
     const Placed &a = loop_[before], &b = loop_[i];
-    if (i == 0 ||
-        meet(a, a.to + a.shifts[chosen_[before]], b, b.from + b.shifts[k], isFree))
+    if (i == 0 || meet(a, a.to + a.shifts[chosen_[before]], b, b.from + b.shifts[k], isFree))
       tryFrom(i + 1);
   }
 }
@@ -253,10 +259,10 @@ void LoopFiller::joinEnds(size_t ia, size_t ib) {
   const auto middle = [](double x, double y, double from, double to) {
     return x == from || x == to ? x : y == from || y == to ? y : 0.5 * (x + y);
   };
-  const Point2 joint = a.isGiven   ? pa
-                       : b.isGiven ? pb
-                                   : Point2{middle(pa.x, pb.x, low.x, high.x),
-                                            middle(pa.y, pb.y, low.y, high.y)};
+  const Point2 joint =
+      a.isGiven   ? pa
+      : b.isGiven ? pb
+                  : Point2{middle(pa.x, pb.x, low.x, high.x), middle(pa.y, pb.y, low.y, high.y)};
   const auto move = [&](Placed& p, size_t at) {
     if (p.isGiven) return;
     // The point next to it as well: the direction stays.
