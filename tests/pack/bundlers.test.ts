@@ -9,10 +9,12 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { list, packAndInstall, type Consumer } from './consumer.ts';
 
 // An app that spans two loops on the main thread and in a worker, triangulates a polygon in either, opens a
-// session on it in a worker, fills a cube without its lid in either, has it in files and back, and says so in its title.
+// session on it in a worker, fills a cube without its lid in either, has it in files
+// and back, meshes a patch in either, and says so in its title.
 const kApp = `
   import { fillHoles, load, spanLoops, triangulatePolygon } from 'soapfilm';
   import { readMesh, writeMesh } from 'soapfilm/files';
+  import { TrimmedModel } from 'soapfilm/surfaces';
   import { createWorker } from 'soapfilm/worker';
   const ring = (count, z) => Array.from({ length: count }, (_, i) =>
     [Math.cos(2 * Math.PI * i / count), Math.sin(2 * Math.PI * i / count), z]);
@@ -31,6 +33,11 @@ const kApp = `
     };
     for (const { mesh } of [fillHoles(cube), await film.fillHoles(cube)]) found.push({ triangles: mesh.faces });
     for (const format of ['ply', 'glb']) found.push({ triangles: (await readMesh(await writeMesh(cube, format))).faces });
+    const knots = [0, 0, 1, 1];
+    const poles = [[0, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0]];
+    const surface = { degreeU: 1, degreeV: 1, knotsU: knots, knotsV: knots, countU: 2, countV: 2, poles };
+    const model = { faces: [{ surface }], edges: [] };
+    found.push(new TrimmedModel(model).tessellate(), await (await film.createTrimmedModel(model)).tessellate());
     film.dispose();
     return found.map(({ triangles }) => triangles.length / 3).join(' ');
   }
@@ -38,7 +45,7 @@ const kApp = `
     (title) => (document.title = title),
     (error) => (document.title = 'failed: ' + error.message),
   );`;
-const kTitle = '14 14 7 7 7 12 12 10 10';
+const kTitle = '14 14 7 7 7 12 12 10 10 2 2';
 
 const kTypes: Readonly<Record<string, string>> = {
   '.html': 'text/html',
@@ -121,11 +128,12 @@ describe('bundlers', () => {
     expect(files.filter((file) => /^loops-.*\.wasm$/.test(file))).toHaveLength(1);
     expect(files.filter((file) => /^polygons-.*\.wasm$/.test(file))).toHaveLength(1);
     expect(files.filter((file) => /^meshes-.*\.wasm$/.test(file))).toHaveLength(1);
+    expect(files.filter((file) => /^surfaces-.*\.wasm$/.test(file))).toHaveLength(1);
     expect(files.filter((file) => /^worker_thread-.*\.js$/.test(file))).toHaveLength(1);
     const { title, asked } = await visitFolder(path.join(root, 'dist'));
     expect(title).toBe(kTitle);
     // Once each, although the worker has them as well.
-    expect(asked.filter((file) => /\.wasm$/.test(file))).toHaveLength(3);
+    expect(asked.filter((file) => /\.wasm$/.test(file))).toHaveLength(4);
     expect(asked.some((file) => /inline/.test(file))).toBe(false);
   });
 
@@ -168,13 +176,13 @@ describe('bundlers', () => {
 
   test('no bundler: served as it is, with an import map', async () => {
     const dist = './node_modules/soapfilm/wasm/dist';
-    const map = { imports: { soapfilm: `${dist}/index.js`, 'soapfilm/worker': `${dist}/worker.js`, 'soapfilm/files': `${dist}/files.js` } };
+    const map = { imports: { soapfilm: `${dist}/index.js`, 'soapfilm/worker': `${dist}/worker.js`, 'soapfilm/files': `${dist}/files.js`, 'soapfilm/surfaces': `${dist}/surfaces.js` } };
     const html = kHtml.replace('<script', `<script type="importmap">${JSON.stringify(map)}</script><script`);
     await writeFile(path.join(consumer.folder, 'app.js'), kApp);
     await writeFile(path.join(consumer.folder, 'index.html'), html);
     const { title, asked } = await visitFolder(consumer.folder);
     expect(title).toBe(kTitle);
-    for (const name of ['loops.wasm', 'polygons.wasm', 'meshes.wasm']) {
+    for (const name of ['loops.wasm', 'polygons.wasm', 'meshes.wasm', 'surfaces.wasm']) {
       expect(asked).toContain(`/node_modules/soapfilm/wasm/dist/${name}`);
     }
   });

@@ -22,7 +22,7 @@ describe('the tarball', () => {
   test('contents: the built library and its documents, nothing else', () => {
     const strange = consumer.files.filter((file) => !/^wasm\/dist\/[a-z_]+(\.d\.ts|\.js|\.wasm)$/.test(file));
     expect(strange).toEqual(['CHANGELOG.md', 'LICENSE', 'README.md', 'package.json']);
-    for (const name of ['loops.wasm', 'polygons.wasm', 'meshes.wasm', 'index.js', 'index.d.ts', 'worker.js', 'worker.d.ts', 'files.js', 'files.d.ts']) {
+    for (const name of ['loops.wasm', 'polygons.wasm', 'meshes.wasm', 'surfaces.wasm', ...['index', 'worker', 'files', 'surfaces'].flatMap((stem) => [`${stem}.js`, `${stem}.d.ts`])]) {
       expect(consumer.files).toContain(`wasm/dist/${name}`);
     }
   });
@@ -40,13 +40,13 @@ describe('the tarball', () => {
   });
 
   test('are the types wrong: no', async () => {
-    const args = [consumer.tarball, '--profile', 'esm-only', '--exclude-entrypoints', './loops.wasm', './polygons.wasm', './meshes.wasm'];
+    const args = [consumer.tarball, '--profile', 'esm-only', '--exclude-entrypoints', './loops.wasm', './polygons.wasm', './meshes.wasm', './surfaces.wasm'];
     await executeTool('@arethetypeswrong/cli/dist/index.js', args, repository);
   });
 
   test('size: each part up to 150 KB, that for meshes 200 KB, and the scripts up to 21 KB, gzipped', async () => {
     const dist = path.join(consumer.folder, 'node_modules/soapfilm/wasm/dist');
-    for (const [name, most] of [['loops.wasm', 150], ['polygons.wasm', 150], ['meshes.wasm', 200]] as const) {
+    for (const [name, most] of [['loops.wasm', 150], ['polygons.wasm', 150], ['meshes.wasm', 200], ['surfaces.wasm', 150]] as const) {
       const size = gzipSync(await readFile(path.join(dist, name))).length;
       expect(size, name).toBeLessThanOrEqual(most * 1024);
     }
@@ -82,6 +82,17 @@ describe('the tarball', () => {
     expect(gzipSync(glb.slice(licences.length)).length).toBeLessThanOrEqual(22 * 1024);
   });
 
+  test('size: trimmed surfaces up to 18 KB, gzipped, of which reading from other libraries is left out if it is not used', async () => {
+    const dist = path.join(consumer.folder, 'node_modules/soapfilm/wasm/dist');
+    const sizeOf = async (contents: string): Promise<number> => {
+      const { outputFiles } = await build({ stdin: { contents, resolveDir: dist }, bundle: true, minify: true, format: 'esm', write: false, external: ['*_inline.js'] });
+      return gzipSync(outputFiles[0].contents).length;
+    };
+    const all = await sizeOf("export * from './surfaces.js';");
+    expect(all).toBeLessThanOrEqual(18 * 1024);
+    expect(await sizeOf("export { TrimmedModel } from './surfaces.js';")).toBeLessThan(all - 2 * 1024);
+  });
+
   test('one feature alone: brings nothing of the others', async () => {
     const dist = path.join(consumer.folder, 'node_modules/soapfilm/wasm/dist');
     const { outputFiles } = await build({
@@ -92,7 +103,7 @@ describe('the tarball', () => {
       write: false,
       external: ['*_inline.js'],
     });
-    expect(outputFiles[0].text).not.toMatch(/sf_span_loops|sf_session|sf_\w+_holes|GeometryCollection|\.curve/);
+    expect(outputFiles[0].text).not.toMatch(/sf_span_loops|sf_session|sf_\w+_holes|sf_\w+_surfaces|GeometryCollection|\.curve/);
     expect(outputFiles[0].text).toContain('sf_triangulate_polygons');
   });
 });
@@ -134,6 +145,22 @@ describe('in Node', () => {
     expect((await consumer.run('holes.mjs', source)).trim()).toBe('12 12 true');
   });
 
+  test('TrimmedModel: meshes a patch, here and in the worker', async () => {
+    const source = `import { load } from 'soapfilm';
+      import { parseTrimmedModel, TrimmedModel } from 'soapfilm/surfaces';
+      import { createWorker } from 'soapfilm/worker';
+      await load({ parts: ['surfaces'] });
+      const knots = [0, 0, 1, 1];
+      const poles = [[0, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0]];
+      const surface = { degreeU: 1, degreeV: 1, knotsU: knots, knotsV: knots, countU: 2, countV: 2, poles };
+      const model = parseTrimmedModel({ schema: 'trimmed-nurbs/1', faces: [{ surface }], edges: [] });
+      const film = await createWorker({ parts: ['surfaces'] });
+      const there = await film.createTrimmedModel(model);
+      console.log(new TrimmedModel(model).tessellate().triangles.length / 3, (await there.tessellate()).triangles.length / 3);
+      film.dispose();`;
+    expect((await consumer.run('surfaces.mjs', source)).trim()).toBe('2 2');
+  });
+
   test('the worker: spans two loops and lets the process end', async () => {
     const source = `import { createWorker } from 'soapfilm/worker'; ${kRings}
       const film = await createWorker();
@@ -171,8 +198,8 @@ describe('in Node', () => {
     const source = `import { readFile } from 'node:fs/promises';
       import { findHoles, load, spanLoops, triangulatePolygon } from 'soapfilm'; ${kRings}
       const read = (name) => readFile(new URL(import.meta.resolve(name)));
-      const [core, polygons, meshes] = await Promise.all(['loops', 'polygons', 'meshes'].map((part) => read(\`soapfilm/\${part}.wasm\`)));
-      await load({ wasm: { loops: core, polygons, meshes } });
+      const [core, polygons, meshes, surfaces] = await Promise.all(['loops', 'polygons', 'meshes', 'surfaces'].map((part) => read(\`soapfilm/\${part}.wasm\`)));
+      await load({ wasm: { loops: core, polygons, meshes, surfaces } });
       console.log(spanLoops(loops).triangles.length / 3,
         triangulatePolygon([[[0, 0], [1, 0], [1, 1], [0, 1]]]).triangles.length / 3,
         findHoles({ positions: new Float32Array(9), faces: new Uint32Array() }).loops.length);`;
@@ -188,7 +215,8 @@ describe('in TypeScript', () => {
         triangulatePolygons, type FillOptions, type FillResult, type HoleReport, type LoopSet, type MeshInput, type PolygonOptions, type PolygonTriangulation, type SpanOptions,
       } from 'soapfilm';
       import { readMesh, writeMesh, type MeshFile } from 'soapfilm/files';
-      import { createWorker, type PolygonSessionHandle } from 'soapfilm/worker';
+      import { TrimmedModel, type Change, type Mesh, type Model, type Report, type Sampling } from 'soapfilm/surfaces';
+      import { createWorker, type PolygonSessionHandle, type TrimmedModelHandle } from 'soapfilm/worker';
       const loops: LoopSet = { positions: new Float64Array(9), starts: Uint32Array.of(0, 3) };
       const options: SpanOptions = { weights: { area: 1 }, onProgress: (fraction) => fraction + 1 };
       await load();
@@ -214,12 +242,22 @@ describe('in TypeScript', () => {
         const file: MeshFile = await readMesh(await writeMesh(filled.mesh, 'glb', { name: 'bust' }), 'bust.glb');
         await writeMesh(span.found ? span : fillHoles(file).mesh, file.warnings.length > 0 ? 'obj' : file.format);
         if (filled.holes[0]?.status === 'failed') fillHoles({ ...filled.mesh }, { onProgress: (fraction, hole, of) => fraction + hole + of });
+        const parts: Model = { instances: [{ part: 'bolt', matrix: new Float64Array(16) }], parts: { bolt: { faces: [], edges: [] } } };
+        using model = new TrimmedModel(parts, { skipInvalid: true });
+        const sampling: Sampling = { relative: 1e-4, aspect: Infinity, onProgress: (fraction) => fraction };
+        const tessellation: Mesh = model.tessellate(sampling);
+        const told: string[] = tessellation.reports.map((report: Report) => (report.report === 'left-out' ? report.message : report.report));
+        using remote: TrimmedModelHandle = await film.createTrimmedModel(parts);
+        const update: Change = await remote.update({ tolerance: told.length, signal: AbortSignal.timeout(count) });
+        model.movePole(update.faces[0] ?? 0, 0, [0, 0, 0], 2);
         film.dispose();
       } catch (error) {
         if (error instanceof SoapfilmError && error.code === 'bad-loops') throw error;
       }
       // @ts-expect-error: not a part
       await load({ parts: ['polygon'] });
+      // @ts-expect-error: not a sampling
+      new TrimmedModel({ faces: [], edges: [] }).tessellate({ tolerances: 3 });
       // @ts-expect-error: not a format
       await writeMesh({ positions: new Float32Array(9), faces: Uint32Array.of(0, 1, 2) }, 'fbx');
       // @ts-expect-error: not a fairness

@@ -15,7 +15,9 @@ import {
   type triangulatePolygons,
 } from 'soapfilm';
 import { readMesh, writeMesh } from 'soapfilm/files';
-import { createWorker, type Film, type PolygonSessionHandle } from 'soapfilm/worker';
+import { fromGeomdl, fromOpenCascade, fromRhino, fromThree, parseTrimmedModel, type Face, type TrimmedModel } from 'soapfilm/surfaces';
+import { createWorker, type Film, type PolygonSessionHandle, type TrimmedModelHandle } from 'soapfilm/worker';
+import { box, plate } from './models.js';
 
 function detached<T extends ArrayBufferView>(view: T): T {
   structuredClone(view.buffer, { transfer: [view.buffer as ArrayBuffer] });
@@ -149,6 +151,23 @@ const kCurve = formatLoops(kLoops);
 export const kTwoHoles = {
   positions: Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 9, 0, 0, 10, 0, 0, 9, 1, 0, 9, 0, 1),
   faces: Uint32Array.of(0, 2, 1, 0, 1, 3, 0, 3, 2, 4, 6, 5, 4, 5, 7, 4, 7, 6),
+};
+
+const kArrays: readonly Kind[] = [
+  'empty array', 'short array', 'sparse array', 'huge sparse array', 'array of BigInts', 'array of itself', 'throwing array',
+];
+const kTriangle = [[0.25, 0.25], [0.75, 0.25], [0.5, 0.75]];
+const { edges: kPlateEdges = [], ...kPlateFace } = plate([kTriangle]);
+/** A face with a hole. */
+export const kPlate = { faces: [kPlateFace], edges: kPlateEdges };
+const kCamera = { eye: [0, 0, 9], viewProjection: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -0.1, 0, 0, 0, 0, 1], width: 100, height: 100, pixels: 1 };
+
+const kCameraValues: Readonly<Record<keyof typeof kCamera, readonly Kind[]>> = {
+  eye: ['Float32Array', 'Float64Array'],
+  viewProjection: [],
+  width: kPositive,
+  height: kPositive,
+  pixels: ['missing', ...kPositive],
 };
 
 /** A list with one item replaced. */
@@ -420,6 +439,149 @@ export function sessionSlots(
       ['point[0]', on((session, v) => session.move(0, [v, 0])), ['fraction', 'negative'], point],
       ['point.y', on((session, v) => session.move(0, { x: 1, y: v })), ['fraction', 'negative'], point],
     ]),
+  ];
+}
+
+type AnyModel = TrimmedModel | TrimmedModelHandle;
+
+/** The places in a model, in its options, and in the arguments of its methods; `more` are further options of `open`. */
+export function modelSlots(
+  open: (model: unknown, options?: unknown) => AnyModel | Promise<AnyModel>,
+  more: Readonly<Record<string, readonly Kind[]>> = {},
+): Slot[] {
+  const on = (use: (model: AnyModel, value: never) => unknown) => async (value: unknown) => {
+    const model = await open(kPlate);
+    try {
+      return await use(model, value as never);
+    } finally {
+      model.dispose();
+    }
+  };
+  const field = (change: (face: Face, value: unknown) => object) => (value: unknown) => {
+    const { edges, ...face } = change(plate([kTriangle]), value) as Face;
+    return open({ faces: [face], edges });
+  };
+  const surface = (name: string) => field((face, value) => ({ ...face, surface: { ...face.surface, [name]: value } }));
+  const use = (name: string) =>
+    field((face, value) => {
+      const [around, hole] = face.loops ?? [];
+      return { ...face, loops: [around, { uses: [{ ...hole.uses[0], [name]: value }] }] };
+    });
+  const curve = (name: string) =>
+    field((face, value) => {
+      const [around, hole] = face.loops ?? [];
+      return { ...face, loops: [around, { uses: [{ ...hole.uses[0], pcurve: { ...hole.uses[0].pcurve, [name]: value } }] }] };
+    });
+  const edge = (name: string) =>
+    field((face, value) => ({ ...face, edges: (face.edges ?? []).map((given, e) => (e === 2 ? { ...given, [name]: value } : given)) }));
+  const { poles } = kPlate.faces[0].surface;
+  const codes: ErrorCode[] = [
+    'bad-model', 'bad-knots', 'bad-weights', 'not-finite', 'bad-edge', 'bad-domain', 'degenerate', 'edge-apart', 'trims-cross', 'trim-open',
+  ];
+  const face = /`model\.faces|[Ff]ace 0/;
+  const optional: readonly Kind[] = ['missing', 'null'];
+  const instance = (value: object) => open({ instances: [{ part: box(), ...value }] });
+  return [
+    ...slots('TrimmedModel', codes, [
+      ['model', open],
+      ['model.faces', (v) => open({ faces: v, edges: [] }), ['empty array'], /faces/],
+      ['model.edges', (v) => open({ ...kPlate, edges: v }), [], /edges?/],
+      ['model.faces[0]', (v) => open({ ...kPlate, faces: [v] }), [], face],
+      ['model.faces[0].surface', field((given, surface) => ({ ...given, surface }))],
+      ['surface.degreeU', surface('degreeU'), [], face],
+      ['surface.knotsV', surface('knotsV'), [], face],
+      ['surface.knotsU[3]', (v) => surface('knotsU')([0, 0, 1, v]), ['2^32 - 1', '2^32', '2^32 + 4'], face],
+      ['surface.countV', surface('countV'), [], face],
+      ['surface.poles', surface('poles'), [], face],
+      ['surface.poles[3]', (v) => surface('poles')([...poles.slice(0, 3), v]), ['Float32Array', 'Float64Array'], face],
+      ['surface.poles[3][2]', (v) => surface('poles')([...poles.slice(0, 3), [1, 1, v]]), kFinite, face],
+      ['surface.weights', surface('weights'), optional, face],
+      ['surface.weights[0]', (v) => surface('weights')([v, 1, 1, 1]), kPositive, face],
+      ['surface.domain', surface('domain'), ['missing'], face],
+      ['face.reversed', field((given, reversed) => ({ ...given, reversed })), kFlag],
+      ['face.outer', field((given, outer) => ({ ...given, outer })), ['missing'], face],
+      ['face.loops', field((given, loops) => ({ ...given, loops })), ['missing', 'empty array'], face],
+      ['face.loops[1]', field((given, loop) => ({ ...given, loops: [(given.loops ?? [])[0], loop] })), [], face],
+      ['loop.uses', field((given, uses) => ({ ...given, loops: [(given.loops ?? [])[0], { uses }] })), [], face],
+      ['use.edge', use('edge')],
+      ['use.reversed', use('reversed'), kFlag],
+      ['use.seam', use('seam'), kFlag],
+      ['use.pcurve', use('pcurve'), [], face],
+      ['pcurve.degree', curve('degree'), [], face],
+      ['pcurve.knots', curve('knots'), [], face],
+      ['pcurve.poles', curve('poles'), [], face],
+      ['pcurve.weights', curve('weights'), optional, face],
+      ['pcurve.domain', curve('domain'), ['missing'], face],
+      ['edge.degenerate', edge('degenerate'), ['missing', 'false'], /degenerate|[Ff]ace 0/],
+      ['edge.tolerance', edge('tolerance'), ['missing', ...kPositive], /tolerance|[Ff]ace 0/],
+      ['edge.range', edge('range'), [], /range|[Ff]ace 0/],
+      ['edge.curve3d', edge('curve3d'), optional],
+      ['model.instances', (v) => open({ ...kPlate, instances: v }), ['missing', 'empty array']],
+      ['instances[0]', (v) => open({ instances: [v] })],
+      ['instances[0].part', (v) => instance({ part: v }), [], /part/],
+      ['instances[0].matrix', (v) => instance({ matrix: v }), ['missing']],
+      ['instances[0].matrix[5]', (v) => instance({ matrix: [1, 0, 0, 0, 0, v, 0, 0, 0, 0, 1, 0] }), kFinite, /matrix/],
+      ['model.parts', (v) => open({ instances: [{ part: 'a' }], parts: v })],
+    ]),
+    ...optionSlots('TrimmedModel', (options) => open(kPlate, options), { skipInvalid: kFlag, maxMemoryBytes: kBytesLimit, ...more }),
+    ...optionSlots('tessellate', (v) => on((model, value) => model.tessellate(value))(v), {
+      ...kLimits,
+      tolerance: ['missing', ...kPositive],
+      relative: ['missing', ...kPositive],
+      angle: ['missing', 'infinity', ...kPositive],
+      aspect: ['missing', 'infinity', '2^32 - 1', '2^32', '2^32 + 4'],
+      maxTriangles: kLimit,
+      camera: ['missing'],
+      onProgress: kCallback,
+      ...more,
+    }),
+    ...slots('update, camera', ['bad-option'], [
+      ...Object.entries(kCameraValues).map(
+        ([name, valid]): Row => [`camera.${name}`, (v) => on((model) => model.update({ camera: { ...kCamera, [name]: v } }))(undefined), valid],
+      ),
+    ]),
+    ...slots('movePole', ['bad-option'], [
+      ['face', on((model, v) => model.movePole(v, 0, [0, 0, 0])), [], /`face`|pole/],
+      ['pole', on((model, v) => model.movePole(0, v, [0, 0, 0])), [], /pole/],
+      ['at', on((model, v) => model.movePole(0, 0, v)), ['Float32Array', 'Float64Array']],
+      ['at[2]', on((model, v) => model.movePole(0, 0, [0, 0, v])), kFinite],
+      ['weight', on((model, v) => model.movePole(0, 0, [0, 0, 0], v)), ['missing', ...kPositive]],
+    ]),
+    ...slots('moveTrim', ['bad-option', 'trim-outside', 'trims-cross', 'trim-self-intersects'], [
+      ['loop', on((model, v) => model.moveTrim(0, v, 0, 1, [0.75, 0.25])), [], /`loop`|pole/],
+      ['use', on((model, v) => model.moveTrim(0, 1, v, 1, [0.75, 0.25])), [], /`use`|pole/],
+      ['pole', on((model, v) => model.moveTrim(0, 1, 0, v, [0.75, 0.25])), [], /pole/],
+      ['at', on((model, v) => model.moveTrim(0, 1, 0, 1, v))],
+      ['at[0]', on((model, v) => model.moveTrim(0, 1, 0, 1, [v, 0.25])), ['fraction'], /`at`|[Ff]ace 0/],
+    ]),
+  ];
+}
+
+/** Those of models from files and from other libraries. */
+export function modelFileSlots(): Slot[] {
+  const parse = parseTrimmedModel as (json: unknown) => unknown;
+  const codes: ErrorCode[] = ['bad-file', 'bad-model'];
+  const rhino = fromRhino as (brep: unknown, rhino: unknown, options?: unknown) => unknown;
+  const none = { count: 0, get: () => undefined };
+  const brep = { faces: () => none, edges: () => none };
+  const types = { BrepLoopType: { Outer: 1, Inner: 2 } };
+  return [
+    ...slots('parseTrimmedModel', codes, [
+      ['json', parse, [], /`model`|JSON|schema|`model\.schema`/],
+      // What is in it is looked at later.
+      ['model.faces', (v) => parse({ ...kPlate, schema: 'trimmed-nurbs/1', faces: v }), kArrays, /faces/],
+    ]),
+    ...slots('fromGeomdl', codes, [
+      ['json', fromGeomdl, [], /`file|JSON/],
+      ['file.shape', (v) => fromGeomdl({ shape: v }), [], /`file\.shape|surfaces/],
+      ['file.shape.data', (v) => fromGeomdl({ shape: { type: 'surface', data: v } }), ['empty array'], /`file\.shape\.data`/],
+    ]),
+    ...slots('fromThree', codes, [['nurbsSurface', fromThree as (value: unknown) => unknown]]),
+    ...slots('fromRhino', codes, [
+      ['brep', (v) => rhino(v, types)],
+    ]),
+    ...optionSlots('fromRhino', (options) => rhino(brep, types, options), { tolerance: ['missing', ...kPositive] }),
+    ...slots('fromOpenCascade', codes, [['shape', (v) => fromOpenCascade(v, v as never)]]),
   ];
 }
 

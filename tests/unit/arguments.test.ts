@@ -13,14 +13,18 @@ import {
   triangulatePolygons,
   type LoopsLike,
 } from 'soapfilm';
-import { createWorker, type Film, type PolygonSessionHandle } from 'soapfilm/worker';
+import { TrimmedModel } from 'soapfilm/surfaces';
+import { createWorker, type Film, type PolygonSessionHandle, type TrimmedModelHandle } from 'soapfilm/worker';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import {
   fileSlots,
   functionSlots,
+  kPlate,
   kTwoHoles,
   kValues,
   loadSlots,
+  modelFileSlots,
+  modelSlots,
   sessionSlots,
   type Functions,
   type Kind,
@@ -101,12 +105,18 @@ const openHere = (polygon: unknown, options?: unknown): PolygonSession =>
 const openThere = (polygon: unknown, options?: unknown): Promise<PolygonSessionHandle> =>
   film.createPolygonSession(polygon as never, options as never);
 
+const modelHere = (model: unknown, options?: unknown): TrimmedModel => new TrimmedModel(model as never, options as never);
+const modelThere = (model: unknown, options?: unknown): Promise<TrimmedModelHandle> =>
+  film.createTrimmedModel(model as never, options as never);
+
 const titled = (slots: readonly Slot[]): [string, Slot][] => slots.map((slot) => [slot.title, slot]);
 
 describe('in this thread', () => {
   test.each(titled(functionSlots(here)))('%s: every kind of value', (_, slot) => tryAll(slot));
   test.each(titled(sessionSlots(openHere)))('%s: every kind of value', (_, slot) => tryAll(slot));
   test.each(titled(fileSlots()))('%s: every kind of value', (_, slot) => tryAll(slot));
+  test.each(titled(modelSlots(modelHere)))('%s: every kind of value', (_, slot) => tryAll(slot));
+  test.each(titled(modelFileSlots()))('%s: every kind of value', (_, slot) => tryAll(slot));
 });
 
 describe('in a worker', () => {
@@ -116,6 +126,10 @@ describe('in a worker', () => {
     await tryAll(slot);
     expect((await film.spanLoops([kLoop])).found).toBe(true);
   });
+
+  // Models have a thread each, and are checked by the same code as here.
+  const ofModels = modelSlots(modelThere, signal).filter(({ title }) => /: (model|signal|weight|camera|skipInvalid)$/.test(title));
+  test.each(titled(ofModels))('%s: every kind of value', (_, slot) => tryAll(slot));
 });
 
 describe('loading', () => {
@@ -169,6 +183,7 @@ const kFillNames = [
   'maxMemoryBytes', 'maxSeconds', 'weld', 'weights', 'candidates', 'fairness', 'density', 'maxNewVertices', 'creases', 'holes', 'groups',
   'perHole', 'fillOpenRims', 'maxVertices', 'maxLength', 'output', 'onProgress', 'maxSecondsPerHole',
 ];
+const kSamplingNames = ['tolerance', 'relative', 'angle', 'camera', 'aspect', 'maxTriangles', 'maxSeconds', 'maxMemoryBytes', 'onProgress'];
 const readers: [string, readonly string[], (options: object) => unknown][] = [
   ['spanLoops', kSpanNames, (options) => spanLoops([kLoop], options)],
   ['film.spanLoops', [...kSpanNames, 'signal'], (options) => film.spanLoops([kLoop], options)],
@@ -180,6 +195,10 @@ const readers: [string, readonly string[], (options: object) => unknown][] = [
   ['fillHoles', kFillNames, (options) => fillHoles(kTwoHoles, options)],
   ['film.fillHoles', [...kFillNames, 'signal'], (options) => film.fillHoles(kTwoHoles, options)],
   ['smoothSurface', ['maxMemoryBytes', 'maxSeconds', 'kind', 'density', 'maxNewVertices', 'fixed', 'boundaryNormals'], (options) => smoothSurface(kTwoHoles, options)],
+  ['TrimmedModel', ['skipInvalid', 'maxMemoryBytes'], (options) => new TrimmedModel(kPlate, options)],
+  ['film.createTrimmedModel', ['skipInvalid', 'maxMemoryBytes', 'signal'], (options) => film.createTrimmedModel(kPlate, options)],
+  ['tessellate', kSamplingNames, (options) => new TrimmedModel(kPlate).tessellate(options)],
+  ['update', kSamplingNames, (options) => new TrimmedModel(kPlate).update(options)],
   ['load', ['parts', 'wasm', 'checks'], (options) => load(options)],
   ['createWorker', ['parts', 'wasm', 'checks', 'size'], (options) => createWorker(options)],
   ['formatObj', ['name', 'precision'], (options) => formatObj(kSurface, options)],

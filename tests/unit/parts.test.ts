@@ -17,9 +17,11 @@ import {
   type LoadOptions,
   type LoopsLike,
 } from 'soapfilm';
+import { TrimmedModel, TrimmedSurface } from 'soapfilm/surfaces';
 import { createWorker } from 'soapfilm/worker';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { errorOf, rejectionOf } from '../support/errors.js';
+import { box, plate } from '../support/models.js';
 
 const kLoops: LoopsLike = [[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 1]]];
 const kSquare = [[[0, 0], [1, 0], [1, 1], [0, 1]]];
@@ -38,6 +40,11 @@ const onMeshes: [string, () => unknown][] = [
   ['fillHoles', () => fillHoles(kMesh)],
   ['MeshSession', () => new MeshSession(kMesh)],
   ['smoothSurface', () => smoothSurface(kMesh)],
+];
+
+const onSurfaces: [string, () => unknown][] = [
+  ['TrimmedModel', () => new TrimmedModel(box())],
+  ['TrimmedSurface', () => new TrimmedSurface(plate())],
 ];
 
 /** Serves the package's modules and takes note of what it is asked for. */
@@ -67,6 +74,7 @@ const wasm = () => ({
   loops: new URL(`${address}/loops.wasm`),
   polygons: new URL(`${address}/polygons.wasm`),
   meshes: new URL(`${address}/meshes.wasm`),
+  surfaces: new URL(`${address}/surfaces.wasm`),
 });
 
 // In this order: what is loaded stays so.
@@ -92,7 +100,7 @@ describe('load', () => {
     await load({ parts: ['loops'], wasm: wasm() });
     expect(asked).toEqual(['loops.wasm']);
     expect(spanLoops(kLoops)).toMatchObject({ found: true, optimal: true });
-    for (const [part, calls] of [['polygons', onPolygons], ['meshes', onMeshes]] as const) {
+    for (const [part, calls] of [['polygons', onPolygons], ['meshes', onMeshes], ['surfaces', onSurfaces]] as const) {
       for (const [, call] of calls) {
         const error = errorOf(call);
         expect(error.code).toBe('not-loaded');
@@ -113,11 +121,11 @@ describe('load', () => {
   test('all parts, later: only what is missing is fetched', async () => {
     asked.length = 0;
     await Promise.all([load({ wasm: wasm() }), load({ parts: ['polygons'] }), load()]);
-    expect(asked.sort()).toEqual(['meshes.wasm', 'polygons.wasm']);
+    expect(asked.sort()).toEqual(['meshes.wasm', 'polygons.wasm', 'surfaces.wasm']);
     expect(spanLoops(kLoops).found).toBe(true);
   });
 
-  test.each([...onPolygons, ...onMeshes])('%s: works with all parts', (_, call) => {
+  test.each([...onPolygons, ...onMeshes, ...onSurfaces])('%s: works with all parts', (_, call) => {
     expect(call()).toBeDefined();
   });
 
@@ -145,6 +153,7 @@ describe('createWorker', () => {
     expect(error.code).toBe('not-loaded');
     expect(error.message).toMatch(/'loops'.*`parts`.*`createWorker`/);
     expect((await rejectionOf(film.fillHoles(kMesh))).message).toMatch(/'meshes'.*`parts`.*`createWorker`/);
+    expect((await rejectionOf(film.createTrimmedModel(box()))).message).toMatch(/'surfaces'.*`parts`.*`createWorker`/);
     expect((await film.triangulateGeoJSON(kGeoJSON)).triangles).toHaveLength(6);
     film.dispose();
   });

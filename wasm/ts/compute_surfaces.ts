@@ -7,14 +7,17 @@ import {
   readMoveArrays,
   readSurfacesArrays,
   readTessellationArrays,
+  Status,
+  type ArrayReader,
   type ChangeArrays,
+  type Place,
   type TessellationArrays,
 } from './border.js';
 import { fractionsFor } from './compute_holes.js';
-import type { SoapfilmError } from './errors.js';
+import { SoapfilmError } from './errors.js';
+import { statusError } from './messages.js';
 import type { Limits } from './options.js';
 import { kDefaultMemoryBytes } from './runtime.js';
-import { MeshPatches } from './mesh_patches.js';
 import { Session } from './session.js';
 import { faceFaultError } from './surface_faults.js';
 
@@ -38,30 +41,25 @@ export interface OpenedModel {
   readonly errors: readonly SoapfilmError[];
 }
 
-/** A mesh after an update, and where it was written. */
-export interface UpdatedMesh extends Pick<ChangeArrays, 'vertexRanges' | 'indexRanges' | 'stripRanges' | 'faces'> {
-  readonly mesh: TessellationArrays;
+/** A pole's move: of a surface, or of a trimming curve. */
+export interface PoleMove {
+  readonly kind: 'pole' | 'trim';
+  /** As the export of that kind takes them. */
+  readonly args: readonly number[];
 }
-
-const copiesOf = <K extends string>(arrays: Readonly<Record<K, Uint32Array | Float64Array>>): Record<K, Uint32Array & Float64Array> =>
-  Object.fromEntries(Object.entries<Uint32Array | Float64Array>(arrays).map(([name, array]) => [name, array.slice()])) as Record<
-    K,
-    Uint32Array & Float64Array
-  >;
 
 /** The core's half of a model. It is freed when it is garbage. */
 export class ModelKeeper {
   readonly opened: OpenedModel;
   readonly #session: Session;
-  readonly #patches = new MeshPatches();
+  readonly #limit: number;
 
   constructor({ shape, numbers }: BareModel, { maxMemoryBytes = kDefaultMemoryBytes }: Pick<Limits, 'maxMemoryBytes'>, id?: number) {
     this.#session = new Session('surfaces', 'sf_close_surfaces', id);
+    this.#limit = maxMemoryBytes;
     const args = [shape, shape.length, numbers, numbers.length, maxMemoryBytes];
     const { faults, box } = this.#session.open(this, 'sf_open_surfaces', args, readSurfacesArrays, ({ session }) => session[0]);
-    const errors: SoapfilmError[] = [];
-    for (let at = 0; at < faults.length; at += kFaceFaultLength) errors.push(faceFaultError(readFaceFault(faults, at)));
-    this.opened = { box, errors };
+    this.opened = { box, errors: errorsOf(faults) };
   }
 
   get id(): number {
@@ -73,41 +71,83 @@ export class ModelKeeper {
     return this.#session.alive();
   }
 
-  tessellate({ settings, maxMemoryBytes = kDefaultMemoryBytes, onProgress }: TessellationWork): TessellationArrays {
+  tessellate(work: TessellationWork): TessellationArrays {
+    return this.#mesh('sf_tessellate_surfaces', work, readTessellationArrays, false);
+  }
+
+  /** @param borrows whether the arrays may be views of the core's memory, valid until its next call */
+  update(work: TessellationWork, borrows: boolean): ChangeArrays {
+    return this.#mesh('sf_update_surfaces', work, readChangeArrays, borrows);
+  }
+
+  /** Moves a pole. `errors` say why it did not. @throws SoapfilmError `bad-option` if there is none of that number */
+  move({ kind, args }: PoleMove): { readonly errors: readonly SoapfilmError[] } {
+    const { faults } = this.#session.call(`sf_move_${kind}`, [this.alive(), ...args, this.#limit], readMoveArrays, { explain: moveError });
+    return { errors: errorsOf(faults) };
+  }
+
+  #mesh<T>(
+    name: string,
+    { settings, maxMemoryBytes = this.#limit, onProgress }: TessellationWork,
+    read: (array: ArrayReader) => T,
+    borrows: boolean,
+  ): T {
     const args = [this.alive(), packSamplingSettings(settings), maxMemoryBytes];
-    const mesh = this.#session.call('sf_tessellate_surfaces', args, readTessellationArrays, { onProgress: fractionsFor(onProgress) });
-    this.#patches.lend(mesh);
-    return mesh;
-  }
-
-  update({ settings, maxMemoryBytes = kDefaultMemoryBytes, onProgress }: TessellationWork): UpdatedMesh {
-    const args = [this.alive(), packSamplingSettings(settings), maxMemoryBytes];
-    const watch = { onProgress: fractionsFor(onProgress), borrows: true };
-    const change = this.#session.call('sf_update_surfaces', args, readChangeArrays, watch);
-    const blocks = this.#patches.apply(change);
-    // The others are views of the core's memory, soon to be void.
-    const { vertexRanges, indexRanges, stripRanges, faces, faceStarts, stripStarts, edges, edgeStarts, same, reports, numbers } = change;
-    const own = { faceStarts, stripStarts, edges, edgeStarts, same, reports };
-    const mesh = { ...copiesOf(own), ...blocks, numbers: numbers.slice() };
-    return { mesh, ...copiesOf({ vertexRanges, indexRanges, stripRanges, faces }) };
-  }
-
-  /** Moves a pole of a surface. @throws SoapfilmError why it is refused */
-  movePole(face: number, pole: number, at: readonly number[], weight = 0): void {
-    this.#move('sf_move_pole', [face, pole, ...at, weight]);
-  }
-
-  /** Moves a pole of a trimming curve. @throws SoapfilmError why it is refused */
-  moveTrim(face: number, loop: number, use: number, pole: number, at: readonly number[]): void {
-    this.#move('sf_move_trim', [face, loop, use, pole, ...at]);
-  }
-
-  #move(name: string, args: readonly number[]): void {
-    const { faults } = this.#session.call(name, [this.alive(), ...args, kDefaultMemoryBytes], readMoveArrays);
-    if (faults.length > 0) throw faceFaultError(readFaceFault(faults, 0));
+    return this.#session.call(name, args, read, { onProgress: fractionsFor(onProgress), borrows });
   }
 
   dispose(): void {
     this.#session.dispose();
   }
 }
+
+function errorsOf(faults: Uint32Array): SoapfilmError[] {
+  const errors: SoapfilmError[] = [];
+  for (let at = 0; at < faults.length; at += kFaceFaultLength) errors.push(faceFaultError(readFaceFault(faults, at)));
+  return errors;
+}
+
+function moveError(status: number, where: Place): SoapfilmError {
+  if (status !== Status.BadOption) return statusError(status, where);
+  return new SoapfilmError('bad-option', 'There is no such pole in the model, or its face is left out');
+}
+
+/** A model for a thread, which may have it open under that name already. */
+export interface NamedModel {
+  readonly name: number;
+  /** Left out if the thread has it. */
+  readonly mesh?: BareModel & {
+    readonly limits: Pick<Limits, 'maxMemoryBytes'>;
+    /** What has been moved since the model was given. */
+    readonly moves: readonly PoleMove[];
+  };
+}
+
+/** The one model that this thread keeps open between calls. */
+let kept: { readonly name: number; readonly keeper: ModelKeeper } | undefined;
+
+/** Does something with a model that stays open in this thread; after an error none does. */
+function withModel<T>({ name, mesh }: NamedModel, use: (keeper: ModelKeeper) => T): T {
+  try {
+    if (mesh) {
+      kept?.keeper.dispose();
+      kept = { name, keeper: new ModelKeeper(mesh, mesh.limits, name) };
+      for (const move of mesh.moves) kept.keeper.move(move);
+    }
+    return use((kept as NonNullable<typeof kept>).keeper);
+  } catch (error) {
+    const left = kept;
+    kept = undefined;
+    left?.keeper.dispose();
+    throw error;
+  }
+}
+
+export const computeOpenModel = (model: NamedModel): OpenedModel => withModel(model, ({ opened }) => opened);
+
+export const computeTessellation = (model: NamedModel, work: TessellationWork): TessellationArrays =>
+  withModel(model, (keeper) => keeper.tessellate(work));
+
+export const computeUpdate = (model: NamedModel, work: TessellationWork): ChangeArrays => withModel(model, (keeper) => keeper.update(work, false));
+
+export const computeMove = (model: NamedModel, move: PoleMove): ReturnType<ModelKeeper['move']> => withModel(model, (keeper) => keeper.move(move));

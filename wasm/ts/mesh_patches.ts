@@ -1,5 +1,8 @@
 // The mesh that updates patch: what the core has written is copied into arrays that stay.
 import type { ChangeArrays, TessellationArrays } from './border.js';
+import type { SoapfilmError } from './errors.js';
+import { tessellationOf } from './sampling_input.js';
+import type { Change } from './surface_types.js';
 
 type Numbers = Float32Array | Uint32Array;
 
@@ -24,8 +27,18 @@ export class MeshPatches {
     this.#isLent = true;
   }
 
-  /** Writes what an update has changed. The arrays of the change may be views that are soon void. */
-  apply(change: ChangeArrays): Blocks {
+  /**
+   * Writes what an update has changed. The arrays of the change may be views that are soon void.
+   * @param faults of the model, as `faultsOf` has them
+   */
+  apply(change: ChangeArrays, faults: readonly SoapfilmError[]): Change {
+    const { vertexRanges, indexRanges, stripRanges, faces, faceStarts, stripStarts, edges, edgeStarts, same, reports, numbers } = change;
+    const rest = copiesOf({ faceStarts, stripStarts, edges, edgeStarts, same });
+    const mesh = tessellationOf({ ...rest, ...this.#write(change), reports, numbers }, faults);
+    return { mesh, ...copiesOf({ vertexRanges, indexRanges, stripRanges, faces }) };
+  }
+
+  #write(change: ChangeArrays): Blocks {
     const [vertices, corners, stripVertices] = change.sizes;
     const before = this.#blocks;
     const fit = <T extends Numbers>(old: T | undefined, length: number, type: new (length: number) => T): T => {
@@ -51,6 +64,9 @@ export class MeshPatches {
     return blocks;
   }
 }
+
+const copiesOf = <T extends Readonly<Record<string, Uint32Array>>>(arrays: T): T =>
+  Object.fromEntries(Object.entries(arrays).map(([name, array]) => [name, array.slice()])) as T;
 
 /** Writes parts that follow each other to the ranges, `width` numbers to each element. */
 function write(to: Numbers, parts: Numbers, ranges: Uint32Array, width: number): void {

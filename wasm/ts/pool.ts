@@ -1,6 +1,7 @@
 // Threads, the calls that wait for them, and what happens to both when a call ends early.
 import { SoapfilmError } from './errors.js';
-import type { BareMesh, NamedMesh } from './compute_holes.js';
+import type { BareMesh } from './compute_holes.js';
+import type { NamedModel } from './compute_surfaces.js';
 import type { Launcher } from './launch.js';
 import { buffersOf, copyOf, unpackError, type Calls, type Reply, type Request } from './protocol.js';
 import { report } from './report.js';
@@ -15,16 +16,16 @@ export interface CallWatch {
   readonly onBest?: ((value: unknown) => void) | undefined;
   /** Whether a call that the signal ends returns the latest better result, if there is one. */
   readonly keepsBest?: boolean | undefined;
-  /** The mesh that the call is about: the input is its name, and a copy goes to a thread that has not got it. */
+  /** The mesh or model that the call is about: the input is its name, and a copy goes to a thread that has not got it. */
   readonly mesh?: PooledMesh | undefined;
 }
 
-/** A mesh that threads keep open between calls. */
+/** A mesh or model that threads keep open between calls. */
 export interface PooledMesh {
   readonly name: number;
   /** Whether nobody needs it any more, once the calls under way are done. */
   isClosed: boolean;
-  readonly copy: () => BareMesh;
+  readonly copy: () => BareMesh | NonNullable<NamedModel['mesh']>;
 }
 
 interface Job {
@@ -266,7 +267,7 @@ export class Pool {
 /** The call's request, with its mesh if the thread has not got that. */
 function requestFor({ mesh: open }: Member, { request, watch: { mesh } }: Job): Job['request'] {
   if (!mesh || mesh.name === open) return request;
-  const named: NamedMesh = { name: mesh.name, mesh: mesh.copy() };
+  const named = { name: mesh.name, mesh: mesh.copy() };
   return { ...request, input: [named, request.input[1]] as Job['request']['input'] };
 }
 

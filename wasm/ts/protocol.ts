@@ -6,6 +6,7 @@ import type { FlatPolygons } from './flat_polygons.js';
 import type { computeCarry, computeCrossings, computeHoles, computeOpen, computePatches, computeWeld } from './compute_holes.js';
 import type { computeSmooth } from './compute_smooth.js';
 import type { computeSpan } from './compute_span.js';
+import type { computeMove, computeOpenModel, computeTessellation, computeUpdate } from './compute_surfaces.js';
 import type { PolygonsOptions, PolygonTriangulation, PolygonsTriangulation } from './types.js';
 
 /**
@@ -23,6 +24,10 @@ export interface Calls {
   readonly findCrossings: typeof computeCrossings;
   readonly carryOn: typeof computeCarry;
   readonly smoothSurface: typeof computeSmooth;
+  readonly openModel: typeof computeOpenModel;
+  readonly tessellateModel: typeof computeTessellation;
+  readonly updateModel: typeof computeUpdate;
+  readonly moveInModel: typeof computeMove;
 }
 
 /**

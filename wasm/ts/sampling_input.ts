@@ -57,7 +57,7 @@ export function faultsOf(here: readonly SoapfilmError[], core: readonly Soapfilm
  * What the core is to do.
  * @throws SoapfilmError `bad-option`
  */
-export function tessellationWorkOf(given: Given<Sampling>, { box }: OpenedModel, limits: Pick<Limits, 'maxMemoryBytes'>): TessellationWork {
+export function tessellationWorkOf(given: Given<Sampling>, { box }: Pick<OpenedModel, 'box'>, limits: Pick<Limits, 'maxMemoryBytes'>): TessellationWork {
   const { tolerance, relative, angle, camera, aspect = kDefaultAspect, maxTriangles = Infinity, maxSeconds = Infinity, maxMemoryBytes } = given;
   const picture = camera === undefined ? kNoCamera : pictureOf(camera);
   const diagonal = Math.hypot(box[3] - box[0], box[4] - box[1], box[5] - box[2]);
@@ -67,7 +67,7 @@ export function tessellationWorkOf(given: Given<Sampling>, { box }: OpenedModel,
     relative === undefined ? Infinity : positiveOf('relative', relative) * (diagonal || 1),
   );
   const isOpen = tolerance === undefined && relative === undefined && camera === undefined;
-  const turn = angle ?? (camera === undefined ? kDefaultAngle : Infinity);
+  const turn = angle === undefined ? (camera === undefined ? kDefaultAngle : Infinity) : angle;
   return {
     settings: {
       tolerance: Math.max(Number.MIN_VALUE, isOpen ? kDefaultRelative * (diagonal || 1) : finest),
@@ -172,16 +172,17 @@ function leftOut({ code, message, face, loop, use, otherLoop, edge }: SoapfilmEr
 
 function reportOf({ report, face, fault, value }: SurfaceReport): TessellationReport[] {
   const name = kSurfaceReportChoices[report];
+  const place = face < 0 ? {} : { face };
   switch (name) {
     case 'left-out':
       return leftOut(bareFaultError(fault, face));
     case 'crossing-samples':
-      return [{ report: name, face, count: value }];
+      return [{ report: name, ...place, count: value }];
     case 'tolerance-raised':
       return [{ report: name, tolerance: value }];
     case 'above-tolerance':
       return [{ report: name, face, deviation: value }];
     case 'time-over':
-      return [face < 0 ? { report: name } : { report: name, face }];
+      return [{ report: name, ...place }];
   }
 }

@@ -4,6 +4,7 @@ import { computeCarry, computeCrossings, computeHoles, computeOpen, computePatch
 import { computeSmooth } from './compute_smooth.js';
 import { computePolygons, triangulationOfOne } from './compute_polygons.js';
 import { computeSpan } from './compute_span.js';
+import { computeMove, computeOpenModel, computeTessellation, computeUpdate } from './compute_surfaces.js';
 import {
   buffersOf,
   packError,
@@ -36,6 +37,10 @@ const calls: Calls = {
   findCrossings: computeCrossings,
   carryOn: computeCarry,
   smoothSurface: computeSmooth,
+  openModel: computeOpenModel,
+  tessellateModel: computeTessellation,
+  updateModel: computeUpdate,
+  moveInModel: computeMove,
 };
 
 const kinds: SessionKinds = { polygon: PolygonEditor };
@@ -74,7 +79,7 @@ export function serve(port: Port): void {
       reply({ kind: 'done', value, call: request.call }, buffersOf(value));
       return;
     }
-    const [input, options] = request.input;
+    const [input, options = {}] = request.input;
     const call = calls[request.name] as (input: unknown, options: object) => object;
     const listeners: Pick<SpanOptions, 'onProgress' | 'onBest'> = {
       ...(request.progress && {

@@ -1,6 +1,6 @@
 // Models as callers give them, in the two flat arrays that the core takes. Parts of a model are read once, and copied to the
 // places of all their instances.
-import { fieldsOf, isIndex, mustBe, show, viewOf, type Names } from './check.js';
+import { fieldsOf, guarded, isIndex, mustBe, show, viewOf, type Given, type Names } from './check.js';
 import { SoapfilmError, type ErrorCode, type ErrorPlace } from './errors.js';
 import { Growing } from './growing.js';
 import { affineOf, type AffineMap } from './surface_map.js';
@@ -31,6 +31,7 @@ const kSurfaceFields: Names<NurbsSurface> = {
   closedU: true,
   closedV: true,
 };
+const kLoopFields: Names<FaceLoop> = { uses: true };
 const kUseFields: Names<EdgeUse> = { edge: true, reversed: true, seam: true, pcurve: true };
 const kEdgeFields: Names<ModelEdge> = { id: true, degenerate: true, tolerance: true, range: true, faces: true, curve3d: true };
 const kCurveFields: Names<NurbsCurve> = { degree: true, knots: true, poles: true, weights: true, domain: true };
@@ -122,6 +123,15 @@ function bad(message: string, place: ErrorPlace = {}, cause?: unknown, code: Err
   return new SoapfilmError(code, message, place, cause === undefined ? undefined : { cause });
 }
 
+/**
+ * The fields of a part of a model, to be read once each. Most are of plain objects, of which there are many: these are handed on
+ * as they are, and what their getters throw is caught where the face or the edge is read.
+ */
+function fieldsIn<T extends object>(value: unknown, names: Names<T>, name: string): Given<T> {
+  const isPlain = guarded('bad-model', name, () => typeof value === 'object' && value !== null && Object.getPrototypeOf(value) === Object.prototype);
+  return isPlain ? (value as Given<T>) : fieldsOf<T>(value, names, name, 'bad-model');
+}
+
 /** The items of an array, each read once and at once; an array with gaps has none after the first. */
 function listOf(value: unknown, name: string): readonly unknown[] {
   let items: unknown[] | undefined;
@@ -190,7 +200,7 @@ class Part {
     tolerances.push(numbers.length);
     let id: unknown;
     try {
-      const given = fieldsOf<ModelEdge>(edge, kEdgeFields, name, 'bad-model');
+      const given = fieldsIn<ModelEdge>(edge, kEdgeFields, name);
       const { degenerate, tolerance = 0, range, curve3d } = given;
       id = given.id;
       const curve = curve3d ?? undefined;
@@ -217,7 +227,7 @@ class Part {
     this.flags.push(shape.length);
     let at: ErrorPlace = { face: number };
     try {
-      const { surface, reversed, outer, loops } = fieldsOf<ModelFace>(face, kFaceFields, name, 'bad-model');
+      const { surface, reversed, outer, loops } = fieldsIn<ModelFace>(face, kFaceFields, name);
       const list = loops === undefined ? [] : listOf(loops, `${name}.loops`);
       shape.push(flagIn(reversed, `${name}.reversed`) ? kReversed : 0);
       this.#surface(surface, `${name}.surface`);
@@ -228,7 +238,7 @@ class Part {
       for (let l = 0; l < list.length; l++) {
         at = { face: number, loop: l };
         const loopName = `${name}.loops[${l}]`;
-        const { uses } = fieldsOf<FaceLoop>(list[l], { uses: true }, loopName, 'bad-model');
+        const { uses } = fieldsIn<FaceLoop>(list[l], kLoopFields, loopName);
         const usesIn = listOf(uses, `${loopName}.uses`);
         shape.push(usesIn.length);
         for (let u = 0; u < usesIn.length; u++) {
@@ -247,7 +257,7 @@ class Part {
 
   #surface(surface: unknown, name: string): void {
     const { faceShape: shape, faceNumbers: numbers, facePoles } = this;
-    const given = fieldsOf<NurbsSurface>(surface, kSurfaceFields, name, 'bad-model');
+    const given = fieldsIn<NurbsSurface>(surface, kSurfaceFields, name);
     const counts = (['U', 'V'] as const).map((side) => {
       const degree = countIn(given[`degree${side}`], `${name}.degree${side}`);
       const count = countIn(given[`count${side}`], `${name}.count${side}`);
@@ -271,7 +281,7 @@ class Part {
 
   #use(use: unknown, name: string, place: ErrorPlace, used: Set<number>): void {
     const { faceShape: shape, faceNumbers: numbers } = this;
-    const { edge, reversed, seam, pcurve } = fieldsOf<EdgeUse>(use, kUseFields, name, 'bad-model');
+    const { edge, reversed, seam, pcurve } = fieldsIn<EdgeUse>(use, kUseFields, name);
     const index = this.#byId ? this.#byId.get(edge) : isIndex(edge) && edge < this.edges ? edge : undefined;
     if (index === undefined) {
       const named = typeof edge === 'number' ? { edge } : {};
@@ -298,7 +308,7 @@ function faultOf(error: unknown, name: string, place: ErrorPlace): SoapfilmError
 
 /** Appends a curve. @param poles where its poles begin and end is appended to these, if given */
 function appendCurve(curve: unknown, name: string, size: 2 | 3, shape: Growing<Uint32Array>, numbers: Growing<Float64Array>, poles?: number[]): void {
-  const { degree, knots, poles: given, weights, domain } = fieldsOf<NurbsCurve>(curve, kCurveFields, name, 'bad-model');
+  const { degree, knots, poles: given, weights, domain } = fieldsIn<NurbsCurve>(curve, kCurveFields, name);
   const p = countIn(degree, `${name}.degree`);
   const list = listOf(given, `${name}.poles`);
   shape.push(p);
@@ -345,7 +355,15 @@ function appendPoles(list: unknown, name: string, size: 2 | 3, count: number, mo
   if (poles.length !== count) throw bad(`\`${name}\` must be ${count} = ${more} poles, not ${poles.length}`);
   for (let i = 0; i < count; i++) {
     const pole = poles[i];
-    if (appendNumbers(pole, name, numbers) === size) continue;
+    // Most are plain, and for them this is quicker.
+    if (Array.isArray(pole) && pole.length === size) {
+      for (let k = 0; k < size; k++) {
+        const x: unknown = pole[k];
+        numbers.push(typeof x === 'number' ? x : numberIn(x, `${name}[${i}]`, k));
+      }
+      continue;
+    }
+    if (appendNumbers(pole, `${name}[${i}]`, numbers) === size) continue;
     throw mustBe('bad-model', `${name}[${i}]`, size === 2 ? '[u, v]' : '[x, y, z]', pole);
   }
 }
@@ -359,7 +377,7 @@ function appendWeights(list: unknown, name: string, count: number, numbers: Grow
 }
 
 function checkDomain(given: unknown, name: string, ends: readonly number[]): void {
-  const domain = new Growing(new Float64Array(4));
+  const domain = new Growing(new Float64Array(ends.length));
   const count = appendNumbers(given, name, domain);
   if (count !== ends.length) throw bad(`\`${name}\` must be ${ends.length} numbers, not ${count}`);
   for (let i = 0; i < count; i++) {

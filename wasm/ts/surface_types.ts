@@ -178,8 +178,8 @@ export interface Sampling {
 export type TessellationReport =
   /** A face has a fault and no triangles. `message` and the place say what is wrong. */
   | ({ readonly report: 'left-out'; readonly face: number; readonly code: ErrorCode; readonly message: string } & ErrorPlace)
-  /** Samples of trimming curves of the face crossed, though the curves do not: `count` of their intervals were halved. */
-  | { readonly report: 'crossing-samples'; readonly face: number; readonly count: number }
+  /** Samples of trimming curves crossed, though the curves do not: `count` intervals were halved, of a face or of all. */
+  | { readonly report: 'crossing-samples'; readonly face?: number; readonly count: number }
   /** `maxTriangles` would have been exceeded: the `tolerance` kept to. */
   | { readonly report: 'tolerance-raised'; readonly tolerance: number }
   /** The face is farther off its surface than asked for, by this `deviation`. */
@@ -207,9 +207,9 @@ export interface Tessellation {
   readonly strips: Uint32Array;
   /** `[strips + 1]` */
   readonly stripStarts: Uint32Array;
-  /** Vertices along each edge, of one of its faces, one edge after the other. */
+  /** Vertices along each edge from its beginning to its end, of one of its faces, one edge after the other. Poles have none. */
   readonly edges: Uint32Array;
-  /** `[edges + 1]`; edges that no face uses have no vertices. */
+  /** `[edges + 1]`; edges that no face uses have no vertices. Faces without loops get edges, which follow those given. */
   readonly edgeStarts: Uint32Array;
   /** `[n]` for each vertex the first one at the same place: its own number, or that of a vertex of another face or of a seam. */
   readonly same: Uint32Array;

@@ -1,22 +1,24 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 // TrimmedModel, TrimmedSurface: trimmed surfaces that stay in the core while they are tessellated.
 import { optionsOf } from './check.js';
-import { ModelKeeper } from './compute_surfaces.js';
+import { ModelKeeper, type PoleMove, type TessellationWork } from './compute_surfaces.js';
 import { kDispose } from './dispose.js';
 import type { SoapfilmError } from './errors.js';
+import { MeshPatches } from './mesh_patches.js';
 import type { Limits } from './options.js';
 import { tellLast } from './report.js';
-import { faultsOf, kSampling, kTrimmedOptions, tessellationOf, positiveOf, tessellationWorkOf, trimmedOptionsOf } from './sampling_input.js';
+import { faultsOf, kSampling, kTrimmedOptions, tessellationOf, tessellationWorkOf, trimmedOptionsOf } from './sampling_input.js';
+import { poleMoveOf, trimMoveOf } from './surface_edits.js';
 import { flattenFace, flattenModel, type FlatModel } from './surface_input.js';
-import { finiteOf, numberOf } from './surface_edits.js';
 import type { Change, Face, Model, Sampling, Tessellation, TrimmedOptions } from './surface_types.js';
-import type { PointLike } from './types.js';
+import type { Point2Like, PointLike } from './types.js';
 
 /** What models and single faces have in common. */
 class Trimmed {
   readonly #keeper: ModelKeeper;
   readonly #faults: readonly SoapfilmError[];
   readonly #limits: Pick<Limits, 'maxMemoryBytes'>;
+  readonly #patches = new MeshPatches();
 
   constructor(flatten: () => FlatModel, options: TrimmedOptions) {
     const { skipInvalid, limits } = trimmedOptionsOf(optionsOf(options, kTrimmedOptions));
@@ -41,11 +43,11 @@ class Trimmed {
    * @throws SoapfilmError `bad-option`, `disposed`, `too-large`, `out-of-memory`, `crashed`; what `onProgress` throws
    */
   tessellate(sampling: Sampling = {}): Tessellation {
-    this.#keeper.alive();
-    const work = tessellationWorkOf(optionsOf(sampling, kSampling, 'sampling'), this.#keeper.opened, this.#limits);
-    const mesh = tessellationOf(this.#keeper.tessellate(work), this.#faults);
-    tellLast(() => work.onProgress?.(1));
-    return mesh;
+    return this.#mesh(sampling, (work) => {
+      const mesh = this.#keeper.tessellate(work);
+      this.#patches.lend(mesh);
+      return tessellationOf(mesh, this.#faults);
+    });
   }
 
   /**
@@ -55,12 +57,7 @@ class Trimmed {
    * @throws SoapfilmError as `tessellate`
    */
   update(sampling: Sampling = {}): Change {
-    this.#keeper.alive();
-    const work = tessellationWorkOf(optionsOf(sampling, kSampling, 'sampling'), this.#keeper.opened, this.#limits);
-    const { mesh, ...ranges } = this.#keeper.update(work);
-    const change = { mesh: tessellationOf(mesh, this.#faults), ...ranges };
-    tellLast(() => work.onProgress?.(1));
-    return change;
+    return this.#mesh(sampling, (work) => this.#patches.apply(this.#keeper.update(work, true), this.#faults));
   }
 
   /**
@@ -71,8 +68,7 @@ class Trimmed {
    * @throws SoapfilmError `bad-edge` if another face shares an edge; `bad-option`; `disposed`. All is then as before
    */
   movePole(face: number, pole: number, at: PointLike, weight?: number): void {
-    const place = [numberOf('face', face), numberOf('pole', pole)] as const;
-    this.#keeper.movePole(...place, finiteOf('at', at, 3), weight === undefined ? 0 : positiveOf('weight', weight));
+    this.#move(() => poleMoveOf(face, pole, at, weight));
   }
 
   /**
@@ -82,9 +78,8 @@ class Trimmed {
    * @throws SoapfilmError `bad-edge`; `trim-outside`, `trim-self-intersects`, `trims-cross`, `hole-outside`, `degenerate`;
    *   `bad-option`; `disposed`. All is then as before
    */
-  moveTrim(face: number, loop: number, use: number, pole: number, at: PointLike): void {
-    const place = [numberOf('face', face), numberOf('loop', loop), numberOf('use', use), numberOf('pole', pole)] as const;
-    this.#keeper.moveTrim(...place, finiteOf('at', at, 2));
+  moveTrim(face: number, loop: number, use: number, pole: number, at: Point2Like): void {
+    this.#move(() => trimMoveOf(face, loop, use, pole, at));
   }
 
   /** Frees its memory. Any other use of it afterwards throws `disposed`. */
@@ -94,6 +89,19 @@ class Trimmed {
 
   [kDispose](): void {
     this.dispose();
+  }
+
+  #mesh<T>(sampling: Sampling, make: (work: TessellationWork) => T): T {
+    this.#keeper.alive();
+    const work = tessellationWorkOf(optionsOf(sampling, kSampling), this.#keeper.opened, this.#limits);
+    const made = make(work);
+    tellLast(() => work.onProgress?.(1));
+    return made;
+  }
+
+  #move(moveOf: () => PoleMove): void {
+    this.#keeper.alive();
+    for (const error of this.#keeper.move(moveOf()).errors) throw error;
   }
 }
 

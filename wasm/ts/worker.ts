@@ -23,6 +23,7 @@ import type {
   NoSpan,
   Part,
   Point2Like,
+  PointLike,
   PolygonEdit,
   PolygonLike,
   PolygonOptions,
@@ -37,6 +38,7 @@ import type {
   Span,
   SpanOptions,
 } from './types.js';
+import type { Change, Model, Sampling, Tessellation, TrimmedOptions } from './surface_types.js';
 
 export { SoapfilmError } from './errors.js';
 
@@ -97,6 +99,8 @@ export interface Film {
    */
   createMeshSession(mesh: MeshInput, options?: HoleOptions & CallOptions): Promise<MeshSessionHandle>;
   smoothSurface(surface: MeshInput, options?: SmoothOptions & CallOptions): Promise<SmoothSurface>;
+  /** Opens a trimmed model in a thread of its own. `signal` ends the opening only. */
+  createTrimmedModel(model: Model, options?: TrimmedOptions & CallOptions): Promise<TrimmedModelHandle>;
   /** Ends all threads. Calls under way and later calls fail with `disposed`, and so do those of sessions. */
   dispose(): void;
   [Symbol.dispose](): void;
@@ -155,6 +159,27 @@ export interface MeshSessionHandle {
 }
 
 /**
+ * A `TrimmedModel` of the entry `soapfilm/surfaces` that lives in a thread of its own. Calls are done in their order; you need not
+ * wait for one to make the next. A call may be cancelled by its `signal`; it then ends the thread, and so does one that crashes,
+ * but the model goes on: the next call opens it anew, with all poles that were moved, and the next update makes all of the mesh.
+ *
+ * It holds memory and a thread. `dispose` frees both; a model that is no longer referred to is freed in time. Open models keep
+ * Node's process alive only while something is under way.
+ */
+export interface TrimmedModelHandle {
+  /** The number by which errors name it: 1 for the first session that is opened in this thread or from it. */
+  readonly id: number;
+  tessellate(sampling?: Sampling & CallOptions): Promise<Tessellation>;
+  /** As of `TrimmedModel`: from update to update it writes to the same arrays. */
+  update(sampling?: Sampling & CallOptions): Promise<Change>;
+  movePole(face: number, pole: number, at: PointLike, weight?: number): Promise<void>;
+  moveTrim(face: number, loop: number, use: number, pole: number, at: Point2Like): Promise<void>;
+  /** Ends it. Calls before still get their answers; later ones fail with `disposed`. */
+  dispose(): void;
+  [Symbol.dispose](): void;
+}
+
+/**
  * Starts a pool. It needs no `load()`. A part that `load` or a pool has compiled is not compiled again.
  * @throws SoapfilmError `load-failed`, `bad-option`
  */
@@ -176,6 +201,9 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
   const meshes = modules.meshes
     ? (await import('./worker_meshes.js')).meshCalls(pool)
     : missing('meshes', 'findHoles', 'fillHoles', 'createMeshSession', 'smoothSurface');
+  const surfaces = modules.surfaces
+    ? (await import('./worker_surfaces.js')).surfaceCalls(pool, modules.surfaces)
+    : missing('surfaces', 'createTrimmedModel');
   return {
     async spanLoops(loops, options = {}) {
       const input = flattenLoops(loops, true);
@@ -208,6 +236,7 @@ export async function createWorker(options: WorkerOptions = {}): Promise<Film> {
     },
     ...polygons,
     ...meshes,
+    ...surfaces,
     dispose,
     [kDispose]: dispose,
   };

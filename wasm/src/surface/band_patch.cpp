@@ -21,7 +21,8 @@ double turnOf(Point2 d) {
 }  // namespace
 
 bool BandPatch::run(const Band& band, PolygonTriangulator& triangulator, Work& work,
-                    std::vector<uint32_t>& corners, size_t& kept, std::vector<uint8_t>& stays) {
+                    ArrayView<const uint32_t> twins, std::vector<uint32_t>& corners, size_t& kept,
+                    std::vector<uint8_t>& stays) {
   const size_t count = corners.size() / 3;
   stays.assign(count, 1);
   for (size_t t = 0; t < count; ++t) {
@@ -32,8 +33,7 @@ bool BandPatch::run(const Band& band, PolygonTriangulator& triangulator, Work& w
                std::none_of(band.changed.begin(), band.changed.end(),
                             [&](const Box2& box) { return overlaps(box, p, q, r); });
   }
-  if (!findTwins(corners, uint32_t(band.at.size()), work, twins_)) return false;
-  if (!findHole(band, corners, stays, work) || !linkRings(band)) return false;
+  if (!findHole(band, corners, twins, stays, work) || !linkRings(band)) return false;
   // Islands that what stays does not have.
   isUsed_.assign(band.at.size(), 0);
   for (size_t t = 0; t < count; ++t)
@@ -67,7 +67,8 @@ bool BandPatch::run(const Band& band, PolygonTriangulator& triangulator, Work& w
 
 /// The border of the hole: the new border without that of what stays, and what is left of the latter, turned round.
 bool BandPatch::findHole(const Band& band, const std::vector<uint32_t>& corners,
-                         const std::vector<uint8_t>& stays, Work& work) {
+                         ArrayView<const uint32_t> twins, const std::vector<uint8_t>& stays,
+                         Work& work) {
   const size_t n = band.at.size();
   if (!work.tick(4 * (band.border.size() + corners.size()))) return false;
   // The new border, by first vertices.
@@ -79,10 +80,10 @@ bool BandPatch::findHole(const Band& band, const std::vector<uint32_t>& corners,
     edges_[--firsts_[band.border[i - 2] + 1]] = {band.border[i - 2], band.border[i - 1]};
   // Now firsts_[v + 1] is where those from v begin.
   isTaken_.assign(edges_.size(), 0);
-  hole_.clear(), seam_.clear();
+  hole_.clear();
   for (uint32_t h = 0; h < corners.size(); ++h) {
     if (!stays[h / 3]) continue;
-    const uint32_t twin = twins_[h];
+    const uint32_t twin = twins[h];
     if (twin != kNone && stays[twin / 3]) continue;
     const uint32_t a = corners[h], b = corners[nextInTriangle(h)];
     bool isFound = false;
@@ -90,7 +91,6 @@ bool BandPatch::findHole(const Band& band, const std::vector<uint32_t>& corners,
       if (edges_[i].to == b && !isTaken_[i]) isTaken_[i] = 1, isFound = true;
     if (isFound) continue;
     hole_.push_back({b, a});
-    seam_.push_back(a), seam_.push_back(b);
   }
   for (size_t i = 0; i < edges_.size(); ++i)
     if (!isTaken_[i]) hole_.push_back(edges_[i]);

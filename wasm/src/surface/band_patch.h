@@ -29,23 +29,21 @@ class BandPatch {
 
   /// Replaces triangles. False if that cannot be done so; they are then as before.
   ///   corners  [3t] counter-clockwise
+  ///   twins    [3t] of these
   ///   kept     out: how many stay; they come first, in their order
   ///   stays    out: [old t] whether it stays
   bool run(const Band& band, PolygonTriangulator& triangulator, Work& work,
-           std::vector<uint32_t>& corners, size_t& kept, std::vector<uint8_t>& stays);
-
-  /// [2e] The edges between what stays and what is new, after a run.
-  ArrayView<const uint32_t> seam() const { return seam_; }
+           ArrayView<const uint32_t> twins, std::vector<uint32_t>& corners, size_t& kept,
+           std::vector<uint8_t>& stays);
 
  private:
   struct Edge {
     uint32_t from, to;
   };
   bool findHole(const Band& band, const std::vector<uint32_t>& corners,
-                const std::vector<uint8_t>& stays, Work& work);
+                ArrayView<const uint32_t> twins, const std::vector<uint8_t>& stays, Work& work);
   bool linkRings(const Band& band);
 
-  std::vector<uint32_t> twins_, seam_;
   std::vector<Edge> edges_, hole_;
   std::vector<uint8_t> isUsed_, isTaken_;
   std::vector<uint32_t> firsts_, rings_, starts_;

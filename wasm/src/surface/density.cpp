@@ -12,9 +12,17 @@ constexpr double kRounding = 1e-12;
 /// Tangents that turn by more than this, in radians, make a crease.
 constexpr double kCrease = 1e-3;
 constexpr int kMostLooks = 4;
+/// Most cells of a grid.
+constexpr double kMostCells = 1 << 21;
+/// How often what is allowed is doubled at most to keep to that.
+constexpr int kMostTries = 60;
 constexpr double kHalfway = 1.38;
 /// Cells up to this aspect have triangles beside them that are as good as can be in space.
 constexpr double kLongCell = 4.5;
+/// A face is divided into so many parts each way where a picture needs parts of it finer, and not if all of it may be as fine
+/// as its nearest point at no more than this loss.
+constexpr uint32_t kPartLevels = 4, kParts = 1u << kPartLevels;
+constexpr double kOneTolerance = 0.7;
 /// How many cells an interval of an edge may be long.
 constexpr double kEdgeCells = 3;
 
@@ -65,7 +73,6 @@ void LineTree::refine(F&& isHalved, Choice& choice) {
   open_.assign(choice.nodes.rbegin(), choice.nodes.rend());
   std::vector<uint32_t>& open = open_;
   choice.nodes.clear();
-  choice.error = 0;
   const double least = std::ldexp(nodes_[roots_ - 1].b - nodes_[0].a, -int(kMostDepth));
   while (!open.empty()) {
     const uint32_t n = open.back();
@@ -75,20 +82,20 @@ void LineTree::refine(F&& isHalved, Choice& choice) {
       open.push_back(child + 1), open.push_back(child);
     } else {
       choice.nodes.push_back(n);
-      choice.error = std::max(choice.error, nodes_[n].error);
     }
   }
 }
 
-void LineTree::choose(double error, double turn, double hysteresis, Choice& choice) {
+template <class F>
+void LineTree::choose(double share, F&& allowed, double turn, Choice& choice) {
   choice.nodes.resize(roots_);
   for (uint32_t i = 0; i < roots_; ++i) choice.nodes[i] = i;
-  refine(
-      [&](const Node& n) {
-        const double allowed = n.isHalved ? hysteresis : 1;
-        return n.error > error * allowed || n.turn > turn * allowed;
-      },
-      choice);
+  refine([&](const Node& n) { return n.error > share * allowed(n.a, n.b) || n.turn > turn; },
+         choice);
+  choice.error = 0;
+  for (const uint32_t n : choice.nodes)
+    if (nodes_[n].error > 0)
+      choice.error = std::max(choice.error, nodes_[n].error / allowed(nodes_[n].a, nodes_[n].b));
 }
 
 void LineTree::shorten(double longest, Choice& choice) {
@@ -97,7 +104,6 @@ void LineTree::shorten(double longest, Choice& choice) {
 
 void LineTree::halve(const std::vector<uint8_t>& halved, Choice& choice) {
   std::vector<uint32_t> nodes;
-  choice.error = 0;
   const double least = std::ldexp(nodes_[roots_ - 1].b - nodes_[0].a, -int(kMostDepth));
   for (size_t i = 0; i < choice.nodes.size(); ++i) {
     const uint32_t n = choice.nodes[i];
@@ -109,21 +115,6 @@ void LineTree::halve(const std::vector<uint8_t>& halved, Choice& choice) {
     }
   }
   choice.nodes.swap(nodes);
-  for (const uint32_t n : choice.nodes) choice.error = std::max(choice.error, nodes_[n].error);
-}
-
-void LineTree::keep(const Choice& choice) {
-  for (Node& n : nodes_) n.isHalved = n.child != kNone;
-  for (const uint32_t n : choice.nodes) {
-    // Nothing below it is halved.
-    std::vector<uint32_t> open = {n};
-    while (!open.empty()) {
-      Node& node = nodes_[open.back()];
-      open.pop_back();
-      node.isHalved = false;
-      if (node.child != kNone) open.push_back(node.child), open.push_back(node.child + 1);
-    }
-  }
 }
 
 void LineTree::lines(const Choice& choice, std::vector<double>& at) const {
@@ -240,7 +231,7 @@ Point2 Density::shortening(const Lines& lines) const {
   return {std::min(1.0, kLongCell * lv / lu), std::min(1.0, kLongCell * lu / lv)};
 }
 
-Density::Density(const NurbsSurface& surface, Box2 box) {
+Density::Density(const NurbsSurface& surface, Box2 box) : box_(box) {
   std::vector<LineTree::Column> columnsU = columnsIn(surface.u(), box.u0, box.u1),
                                 columnsV = columnsIn(surface.v(), box.v0, box.v1);
   for (int round = 0;; ++round) {
@@ -252,6 +243,11 @@ Density::Density(const NurbsSurface& surface, Box2 box) {
     for (auto* columns : {&columnsU, &columnsV})
       for (LineTree::Column& c : *columns) c = {c.from, c.to, 0, 0, 0, 0};
   }
+  // Half of a usual span.
+  const auto halfSpan = [](const BezierSpans& spans) {
+    return 0.5 * (spans.breaks()[spans.count()] - spans.breaks()[0]) / spans.count();
+  };
+  farU_ = halfSpan(surface.u()), farV_ = halfSpan(surface.v());
   u = LineTree(std::move(columnsU), breaksIn(creasesOf(surface, true), box.u0, box.u1));
   v = LineTree(std::move(columnsV), breaksIn(creasesOf(surface, false), box.v0, box.v1));
 }
@@ -301,38 +297,120 @@ void Density::look(const NurbsSurface& surface, Box2 box, std::vector<LineTree::
   if (twist_ * du * dv < kRounding * size) twist_ = 0;
 }
 
-void Density::choose(double tolerance, const Fineness& fineness, Lines& lines) {
-  const double turn = fineness.angle() < kPi ? fineness.angle() : Sampling::kNoLimit;
-  // The errors of both directions add up: of all ways to share the tolerance, the one with the fewest cells.
+Allowance Density::allowanceOf(const NurbsSurface& surface, const Fineness& fineness) {
+  // All of the face at once where that makes no difference.
+  const Vec3 center = 0.5 * (least + greatest);
+  const double radius = 0.55 * distance(least, greatest);
+  const double finest = fineness.tolerance(center, radius);
+  if (finest == Sampling::kNoLimit || finest > kOneTolerance * fineness.tolerance(center, 0))
+    return Allowance(finest);
+  if (balls_.empty()) findBalls(surface);
+  std::vector<double> parts(kParts * kParts);
+  fillParts(fineness, 0, 0, 0, parts);
+  return Allowance(box_, kParts, std::move(parts));
+}
+
+/// Where the balls of a level begin.
+static uint32_t firstBall(uint32_t level) { return ((1u << 2 * level) - 1) / 3; }
+
+void Density::findBalls(const NurbsSurface& surface) {
+  // Nine places of each of the smallest parts, of which neighbours share those between them.
+  constexpr uint32_t kPlaces = 2 * kParts + 1;
+  std::vector<double> us, vs, at(3 * kPlaces * kPlaces), normals(at.size());
+  for (uint32_t i = 0; i < kPlaces; ++i) {
+    const double x = double(i) / (kPlaces - 1);
+    us.push_back(box_.u0 + x * (box_.u1 - box_.u0)),
+        vs.push_back(box_.v0 + x * (box_.v1 - box_.v0));
+  }
+  surface.grid(us, vs, at.data(), normals.data());
+  const auto place = [&](uint32_t i, uint32_t j) {
+    const double* p = &at[3 * (size_t(i) * kPlaces + j)];
+    return Vec3{p[0], p[1], p[2]};
+  };
+  balls_.resize(firstBall(kPartLevels + 1));
+  for (uint32_t i = 0; i < kParts; ++i)
+    for (uint32_t j = 0; j < kParts; ++j) {
+      Ball& ball = balls_[firstBall(kPartLevels) + i * kParts + j];
+      ball = {place(2 * i + 1, 2 * j + 1), 0};
+      for (uint32_t k = 0; k < 9; ++k)
+        ball.radius =
+            std::max(ball.radius, distance(ball.middle, place(2 * i + k / 3, 2 * j + k % 3)));
+      // What lies between may be a little farther out.
+      ball.radius *= 1.1;
+    }
+  for (uint32_t level = kPartLevels; level-- > 0;)
+    for (uint32_t i = 0; i < 1u << level; ++i)
+      for (uint32_t j = 0; j < 1u << level; ++j) {
+        Ball& ball = balls_[firstBall(level) + (i << level) + j];
+        const auto child = [&](uint32_t k) -> const Ball& {
+          return balls_[firstBall(level + 1) + ((2 * i + k / 2) << (level + 1)) + 2 * j + k % 2];
+        };
+        ball = {0.25 * (child(0).middle + child(1).middle + child(2).middle + child(3).middle), 0};
+        for (uint32_t k = 0; k < 4; ++k)
+          ball.radius =
+              std::max(ball.radius, distance(ball.middle, child(k).middle) + child(k).radius);
+      }
+}
+
+/// Fills the parts of a quarter of a quarter, and so on: as one where its nearest point makes little difference.
+void Density::fillParts(const Fineness& fineness, uint32_t level, uint32_t i, uint32_t j,
+                        std::vector<double>& parts) const {
+  const Ball& ball = balls_[firstBall(level) + (i << level) + j];
+  const double finest = fineness.tolerance(ball.middle, ball.radius);
+  if (level < kPartLevels && finest < Sampling::kNoLimit &&
+      finest < kOneTolerance * fineness.tolerance(ball.middle, 0)) {
+    for (uint32_t k = 0; k < 4; ++k)
+      fillParts(fineness, level + 1, 2 * i + k / 2, 2 * j + k % 2, parts);
+    return;
+  }
+  const uint32_t size = kParts >> level;
+  for (uint32_t a = i * size; a < (i + 1) * size; ++a)
+    std::fill(&parts[a * kParts + j * size], &parts[a * kParts + j * size] + size, finest);
+}
+
+void Density::choose(const Allowance& wanted, const Fineness& fineness, Lines& lines) {
+  // A grid that does not fit into memory is made coarser; that the face is then off is measured and told.
+  Allowance allowance = wanted;
+  double turn = fineness.angle() < kPi ? fineness.angle() : Sampling::kNoLimit;
+  for (int k = 0; k < kMostTries; ++k) {
+    chooseAny(allowance, turn, lines);
+    if (double(lines.u.nodes.size()) * double(lines.v.nodes.size()) <= kMostCells) break;
+    allowance = allowance.times(2), turn *= 2;
+  }
+  shapeCells(fineness.aspect(), lines);
+}
+
+void Density::chooseAny(const Allowance& allowance, double turn, Lines& lines) {
+  const auto allowedU = [&](double a, double b) { return allowance.betweenU(a, b); };
+  const auto allowedV = [&](double a, double b) { return allowance.betweenV(a, b); };
+  // The errors of both directions add up: of all ways to share what is allowed, the one with the fewest cells.
   constexpr double kShares[] = {1, 0.75, 0.5, 0.25, 0.125};
-  u.choose(tolerance, turn, fineness.hysteresis(), lines.u);
-  v.choose(tolerance, turn, fineness.hysteresis(), lines.v);
+  u.choose(1, allowedU, turn, lines.u);
+  v.choose(1, allowedV, turn, lines.v);
   // The most that each may be.
-  if (lines.u.error + lines.v.error > tolerance) {
+  if (lines.u.error + lines.v.error > 1) {
     Density::Lines best;
     double fewest = Sampling::kNoLimit;
     LineTree::Choice byShare[5];
-    for (int k = 0; k < 5; ++k)
-      v.choose(kShares[k] * tolerance, turn, fineness.hysteresis(), byShare[k]);
+    for (int k = 0; k < 5; ++k) v.choose(kShares[k], allowedV, turn, byShare[k]);
     for (const double share : kShares) {
       LineTree::Choice cu;
-      u.choose(share * tolerance, turn, fineness.hysteresis(), cu);
+      u.choose(share, allowedU, turn, cu);
       for (const LineTree::Choice& cv : byShare) {
-        if (cu.error + cv.error > tolerance) continue;
+        if (cu.error + cv.error > 1) continue;
         const double cells = double(cu.nodes.size()) * double(cv.nodes.size());
-        if (cells >= fewest) break;
-        fewest = cells, best.u = cu, best.v = cv;
+        if (cells < fewest) fewest = cells, best.u = cu, best.v = cv;
         break;
       }
     }
     if (fewest == Sampling::kNoLimit) {
-      u.choose(tolerance / 2, turn, 1, best.u);
-      v.choose(tolerance / 2, turn, 1, best.v);
+      u.choose(0.5, allowedU, turn, best.u);
+      v.choose(0.5, allowedV, turn, best.v);
     }
     lines = best;
   }
   // A twisted surface that is straight along both parameters is off by a quarter of its twist.
-  if (twist_ > 0 && tolerance < Sampling::kNoLimit) {
+  if (twist_ > 0 && allowance.least() < Sampling::kNoLimit) {
     bool isOff = true;
     for (uint32_t k = 0; k < kMostDepth && isOff; ++k) {
       isOff = false;
@@ -343,18 +421,27 @@ void Density::choose(double tolerance, const Fineness& fineness, Lines& lines) {
         for (size_t j = 0; j + 1 < vs.size(); ++j) {
           const uint32_t nu = lines.u.nodes[i], nv = lines.v.nodes[j];
           const double hu = us[i + 1] - us[i], hv = vs[j + 1] - vs[j];
-          if (std::min(u.twist(nu) * hv, v.twist(nv) * hu) <= 4 * tolerance) continue;
+          const double off = std::min(u.twist(nu) * hv, v.twist(nv) * hu) / 4;
+          if (off <= allowance.at({us[i] + hu / 2, vs[j] + hv / 2})) continue;
           (u.length(nu) >= v.length(nv) ? halvedU[i] : halvedV[j]) = 1;
           isOff = true;
         }
       u.halve(halvedU, lines.u), v.halve(halvedV, lines.v);
     }
   }
-  if (isFlat() || fineness.aspect() == Sampling::kNoLimit) return;
+}
+
+/// Halves intervals that are too long for their width.
+void Density::shapeCells(double aspect, Lines& lines) {
+  if (isFlat() || aspect == Sampling::kNoLimit) return;
   if (lines.u.nodes.size() == 1 && lines.v.nodes.size() == 1) return;
   const double lu = usualLength(u, lines.u), lv = usualLength(v, lines.v);
+  if (!(lu > 0 && lv > 0)) return;
   // Halves are about as near to the aspect as what is a little shorter than this; cells that are nearly square rather stay so.
-  const double aspect = fineness.aspect(), most = std::min(kHalfway, 0.6 + 0.45 * aspect) * aspect;
+  double most = std::min(kHalfway, 0.6 + 0.45 * aspect) * aspect;
+  // Where that would be too many, longer cells.
+  const double cells = double(lines.u.nodes.size()) * double(lines.v.nodes.size());
+  most = std::max(most, std::max(lu / lv, lv / lu) * 2 * cells / kMostCells);
   u.shorten(most * lv, lines.u);
   v.shorten(most * lu, lines.v);
 }

@@ -9,15 +9,11 @@
 #include <vector>
 
 #include "base/point2.h"
+#include "surface/allowance.h"
 #include "surface/nurbs_surface.h"
 #include "surface/sampling.h"
 
 namespace sf {
-
-/// A rectangle of a domain.
-struct Box2 {
-  double u0, u1, v0, v1;
-};
 
 /// The intervals of one parameter.
 class LineTree {
@@ -35,19 +31,18 @@ class LineTree {
   /// For columns in order, between `breaks`, the first and last of which are the ends.
   LineTree(std::vector<Column> columns, std::vector<double> breaks);
 
-  /// Halves intervals until their errors and turns are at most these; what was halved at the last kept choice stays down to
-  /// `hysteresis` of it.
+  /// Halves intervals until their errors and turns are at most these.
+  ///   allowed  the most error of an interval from a to b
   struct Choice {
     std::vector<uint32_t> nodes;  // the intervals, in order
-    double error = 0;             // the largest
+    double error = 0;             // the largest, as a share of what is allowed
   };
-  void choose(double error, double turn, double hysteresis, Choice& choice);
+  template <class F>
+  void choose(double share, F&& allowed, double turn, Choice& choice);
   /// Halves those that are longer than this.
   void shorten(double longest, Choice& choice);
   /// Halves intervals of a choice, where `halved` says so.
   void halve(const std::vector<uint8_t>& halved, Choice& choice);
-  /// Makes a choice the last kept one.
-  void keep(const Choice& choice);
   /// [nodes + 1] where the lines are.
   void lines(const Choice& choice, std::vector<double>& at) const;
 
@@ -63,7 +58,6 @@ class LineTree {
     double a, b;
     double error, turn, twist, length;  // twist: the form's mixed part times the width
     uint32_t child = kNone;
-    bool isHalved = false;
   };
   uint32_t add(double a, double b);
   uint32_t childOf(uint32_t node);
@@ -88,11 +82,13 @@ class Density {
   /// Looks at the surface within a box of its domain. O(patches p q) evaluations.
   Density(const NurbsSurface& surface, Box2 box);
 
-  /// Chooses lines for a tolerance.
+  /// Chooses lines.
   struct Lines {
     LineTree::Choice u, v;
   };
-  void choose(double tolerance, const Fineness& fineness, Lines& lines);
+  void choose(const Allowance& allowance, const Fineness& fineness, Lines& lines);
+  /// What is allowed where, for a picture.
+  Allowance allowanceOf(const NurbsSurface& surface, const Fineness& fineness);
 
   /// How long an edge's intervals may be beside such cells: as some of the longer sides of a usual cell. Infinite where there is
   /// one cell.
@@ -110,6 +106,8 @@ class Density {
     const double du = std::fabs(b.x - a.x), dv = std::fabs(b.y - a.y);
     return (du * du * formU_ + 2 * du * dv * twist_ + dv * dv * formV_) / 8;
   }
+  /// Whether two points are so far apart, for the surface's spans, that it may bend to and fro between them.
+  bool isFar(double du, double dv) const { return std::fabs(du) > farU_ || std::fabs(dv) > farV_; }
   /// The box of the places looked at.
   Vec3 least{}, greatest{};
   /// Mean length in space of a unit of u, and of v.
@@ -120,6 +118,21 @@ class Density {
   void look(const NurbsSurface& surface, Box2 box, std::vector<LineTree::Column>& columnsU,
             std::vector<LineTree::Column>& columnsV);
 
+  /// A ball around a part of the surface.
+  struct Ball {
+    Vec3 middle;
+    double radius;
+  };
+
+  void chooseAny(const Allowance& allowance, double turn, Lines& lines);
+  void shapeCells(double aspect, Lines& lines);
+  void findBalls(const NurbsSurface& surface);
+  void fillParts(const Fineness& fineness, uint32_t level, uint32_t i, uint32_t j,
+                 std::vector<double>& parts) const;
+
+  Box2 box_{};
+  std::vector<Ball> balls_;  // once they were wanted: of all of it, of its 4 quarters, their 16 ...
+  double farU_ = 0, farV_ = 0;
   double twist_ = 0, formU_ = 0, formV_ = 0, speedU_ = 1, speedV_ = 1;
 };
 

@@ -81,15 +81,24 @@ Vec3 EdgeTree::at(double t) const {
   return model_->faces[use.face].surface->tangentsAt(p.x, p.y).at;
 }
 
+/// How many spans of the edge's curve end between two parameters, or of the curve and the surface that it has in place of one.
+uint32_t EdgeTree::spansBetween(double a, double b) const {
+  const ModelEdge& e = model_->edges[edge_];
+  const auto count = [](const BezierSpans& spans, double x, double y) {
+    const uint32_t i = spans.spanAt(x), k = spans.spanAt(y);
+    return i < k ? k - i : i - k;
+  };
+  if (e.curve) return count(e.curve->spans(), a, b);
+  const ModelUse& use = model_->uses[e.firstUse];
+  const NurbsSurface& surface = *model_->faces[use.face].surface;
+  const Point2 p = use.curve.at(a), q = use.curve.at(b);
+  return count(use.curve.curve().spans(), a, b) + count(surface.u(), p.x, q.x) +
+         count(surface.v(), p.y, q.y);
+}
+
 uint32_t EdgeTree::add(double a, Vec3 from, double b, Vec3 to) {
   Node node{a, b, {}, 0, 0, distance(from, to), kNone, kNone, false, false, false};
-  uint32_t pieces = kPieces;
-  const ModelEdge& e = model_->edges[edge_];
-  if (e.curve) {
-    const BezierSpans& spans = e.curve->spans();
-    const uint32_t within = spans.spanAt(b) - spans.spanAt(a);
-    pieces = std::min(kPieces * (within + 1), kMostPieces);
-  }
+  const uint32_t pieces = std::min(kPieces * (1 + spansBetween(a, b)), kMostPieces);
   Vec3 before{}, last = from;
   for (uint32_t i = 1; i <= pieces; ++i) {
     const Vec3 p = i == pieces ? to : at(a + (b - a) * i / pieces);

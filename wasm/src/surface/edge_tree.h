@@ -57,6 +57,7 @@ class EdgeTree {
   };
 
   Vec3 at(double t) const;
+  uint32_t spansBetween(double a, double b) const;
   uint32_t add(double a, Vec3 from, double b, Vec3 to);
   void halve(uint32_t node, Vec3 from, Vec3 to);
 

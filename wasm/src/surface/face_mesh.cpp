@@ -9,7 +9,6 @@
 #include "polygon/triangulate.h"
 #include "surface/band_patch.h"
 #include "surface/trace.h"
-#include "surface/vertex_table.h"
 #include "triangles/triangle_mesh.h"
 
 namespace sf {
@@ -22,6 +21,8 @@ constexpr int kMostRefinings = 8, kMostRounds = 64;
 constexpr double kNearEnd = 1e-3;
 /// Shorter intervals of an edge, as a share of it, are not halved because its surface is off.
 constexpr double kShortInterval = 1e-8;
+/// Memory for a place of the grid, its vertices and triangles, about.
+constexpr double kBytesAPlace = 300;
 constexpr int kMostFlipRounds = 3;
 /// Squares of sines: angles above 25 degrees are good, and one is better than another if it is so by a tenth.
 constexpr double kGoodAngle = 0.18, kBetter = 1.2;
@@ -46,23 +47,23 @@ struct Rings {
   }
 };
 
-/// Turns triangles and strips to the other side.
-void turnRound(FaceMesh& mesh) {
+/// Turns triangles, and strips from one on, to the other side.
+void turnRound(FaceMesh& mesh, size_t firstStrip) {
   for (size_t i = 0; i < mesh.triangles.size(); i += 3)
     std::swap(mesh.triangles[i + 1], mesh.triangles[i + 2]);
   // A strip: backwards if it has an odd number of indices, else with its first one twice.
-  std::vector<uint32_t> turned, starts = {0};
-  for (size_t s = 0; s + 1 < mesh.stripStarts.size(); ++s) {
-    const uint32_t from = mesh.stripStarts[s], to = mesh.stripStarts[s + 1];
+  const std::vector<uint32_t> strips = mesh.strips, starts = mesh.stripStarts;
+  mesh.strips.resize(starts[firstStrip]), mesh.stripStarts.resize(firstStrip + 1);
+  for (size_t s = firstStrip; s + 1 < starts.size(); ++s) {
+    const uint32_t from = starts[s], to = starts[s + 1];
     if ((to - from) % 2 == 1) {
-      for (uint32_t i = to; i > from; --i) turned.push_back(mesh.strips[i - 1]);
+      for (uint32_t i = to; i > from; --i) mesh.strips.push_back(strips[i - 1]);
     } else {
-      turned.push_back(mesh.strips[from]);
-      turned.insert(turned.end(), mesh.strips.begin() + from, mesh.strips.begin() + to);
+      mesh.strips.push_back(strips[from]);
+      mesh.strips.insert(mesh.strips.end(), strips.begin() + from, strips.begin() + to);
     }
-    starts.push_back(uint32_t(turned.size()));
+    mesh.stripStarts.push_back(uint32_t(mesh.strips.size()));
   }
-  mesh.strips.swap(turned), mesh.stripStarts.swap(starts);
 }
 
 }  // namespace
@@ -71,8 +72,9 @@ void FaceMesh::clear() {
   positions.clear(), normals.clear(), uvs.clear(), roles.clear(), unused.clear();
   triangles.clear(), strips.clear(), stripStarts.clear(), useVertices.clear(), useStarts.clear();
   us.clear(), vs.clear(), gridStrips.clear(), poles.clear(), band.clear(), bandOff.clear();
-  border.clear();
-  deviation = 0;
+  bandTwins.clear(), bandLinks.bits.clear();
+  border.clear(), usePlaces.clear(), useTs.clear(), gridVertices.clear();
+  deviation = excess = 0;
 }
 
 struct FaceMesher::State {
@@ -86,24 +88,27 @@ struct FaceMesher::State {
   PlaneSweep sweep;
   LinkedPolygon linked;
   Visibility seen;
-  VertexTable table;
+  std::vector<std::vector<Point2>>
+      knownUvs;  // [uses][intervals of the edge] where each begins, or NaN
   // [vertices of the model] where each was met last.
   struct Corner {
-    uint32_t face;
+    uint32_t run;  // of this mesher
     Point2 uv;
+    uint32_t vertex;
   };
   std::vector<Corner> corners;
   // Of one loop.
   std::vector<Point2> loopUvs;
+  std::vector<double> loopTs;
   std::vector<uint32_t> loopPlaces, loopUses, loopNumbers, loopFirsts, loopVertices;
   std::vector<Vec3> loopAt;
   // For the triangulators.
   std::vector<double> xy, islandXy;
-  std::vector<uint32_t> starts, vertices, bandTwins, bandStrips, bandStripStarts, bandCorners;
+  std::vector<uint32_t> starts, vertices, bandStrips, bandStripStarts, allTriangles, changed;
   std::vector<uint32_t> bandFound;
   std::vector<double> middleUs, middleVs;
   std::vector<uint32_t> known, opposite;
-  std::vector<uint8_t> isNew;
+  std::vector<uint8_t> isNew, isFresh;
 
   // Of the face at hand.
   uint32_t face = 0;
@@ -114,18 +119,24 @@ struct FaceMesher::State {
   Point2 origin{}, scale{1, 1};
   FaceMesh* mesh = nullptr;
   Density* density = nullptr;
-  double tolerance = 0;
+  Allowance allowance;
   bool updates = false;
   std::vector<double> us, vs, localUs, localVs, gridAt, gridNormals, centers, centerNormals;
   std::vector<uint8_t> isNewU, isNewV;  // [cells] whether the interval was none before
   std::vector<FaceMesh::Strip> gridStrips;
   std::vector<uint32_t> gridVertex;
   std::vector<uint8_t> halvedU, halvedV;
-  std::vector<uint32_t> oldUseVertices, oldUseStarts, oldBorder;
-  std::vector<uint8_t> isMet;  // [vertices] in this run
+  std::vector<uint32_t> oldUseVertices, oldUseStarts, oldUsePlaces, oldBorder, oldGrid;
+  std::vector<double> oldUseTs, oldUs, oldVs;
+  std::vector<uint32_t> oldLineU, oldLineV;  // [lines] their number before, or kNone
+  std::vector<uint8_t> isMet;                // [vertices] on a ring in this run
+  uint32_t runs = 0;
   TriangleMesh band;
   std::vector<double> bandOff;
   std::vector<Point2> bandAt;
+  // Of a band that was patched: the triangles that stay, as they were, and their strips.
+  std::vector<uint32_t> oldCorners;
+  StripLinks bandLinks;
   std::vector<uint32_t> quadStrips, quadStarts, quadTriangles;
 
   Point2 scaled(Point2 uv) const {
@@ -133,7 +144,8 @@ struct FaceMesher::State {
   }
   Point2 unscaled(Point2 p) const { return {origin.x + p.x / scale.x, origin.y + p.y / scale.y}; }
 
-  Point2 sharedCorner(uint32_t vertex, Point2 uv);
+  Corner& cornerOf(uint32_t vertex, Point2 uv);
+  Point2 placeOf(uint32_t use, const EdgeSample& sample);
   void begin(uint32_t f, const EdgeSamples& all, FaceMesh& out);
   FaceProblem problemOf(const Outcome& outcome) const;
   FaceProblem checkRings();
@@ -151,7 +163,9 @@ struct FaceMesher::State {
   void improveAngles();
   Point2 splitOf(uint32_t a, uint32_t b, double& share) const;
   double deviationAt(Point2 uv, Vec3 at) const;
+  double allowedIn(size_t triangle) const;
   uint32_t addVertex(Point2 uv, Vec3 at, Vec3 normal, FaceMesh::Role role);
+  void linkBand();
   void finish();
 };
 
@@ -173,17 +187,29 @@ uint32_t FaceMesher::State::addVertex(Point2 uv, Vec3 at, Vec3 normal, FaceMesh:
   return v;
 }
 
-/// The place of a corner in the domain: that of an earlier one of the same vertex, if they are nearly at one place.
-Point2 FaceMesher::State::sharedCorner(uint32_t vertex, Point2 uv) {
-  if (corners.size() < model.vertices) corners.resize(model.vertices, {kNone, {}});
+/// A corner of the face: where one of the same vertex was met before in this run, if they are nearly at one place.
+FaceMesher::State::Corner& FaceMesher::State::cornerOf(uint32_t vertex, Point2 uv) {
+  if (corners.size() < model.vertices) corners.resize(model.vertices, {0, {}, kNone});
   Corner& corner = corners[vertex];
   const BezierSpans &u = surface->u(), &v = surface->v();
   const double nearU = kSameCorner * (u.breaks()[u.count()] - u.breaks()[0]),
                nearV = kSameCorner * (v.breaks()[v.count()] - v.breaks()[0]);
-  const bool isSame = corner.face == face && std::fabs(corner.uv.x - uv.x) <= nearU &&
+  const bool isSame = corner.run == runs && std::fabs(corner.uv.x - uv.x) <= nearU &&
                       std::fabs(corner.uv.y - uv.y) <= nearV;
-  if (!isSame) corner = {face, uv};
-  return corner.uv;
+  if (!isSame) corner = {runs, uv, kNone};
+  return corner;
+}
+
+/// The place of a sample in the domain of a use.
+Point2 FaceMesher::State::placeOf(uint32_t use, const EdgeSample& sample) {
+  if (sample.node == kNone) return model.uses[use].curve.at(sample.t);
+  if (knownUvs.size() < model.uses.size()) knownUvs.resize(model.uses.size());
+  std::vector<Point2>& known = knownUvs[use];
+  if (known.size() <= sample.node) known.resize(sample.node + 1, {std::nan(""), 0});
+  // The first half of an interval begins where that does, so the parameter is one with the node.
+  Point2& uv = known[sample.node];
+  if (std::isnan(uv.x)) uv = model.uses[use].curve.at(sample.t);
+  return uv;
 }
 
 /// Lays out the rings, and their vertices in the mesh.
@@ -192,31 +218,40 @@ void FaceMesher::State::begin(uint32_t f, const EdgeSamples& all, FaceMesh& out)
   if (!updates) out.clear();
   surface = model.faces[f].surface.get();
   isMet.assign(out.positions.size(), 0);
-  table.reset(out.positions.size());
-  for (uint32_t v = 0; v < out.positions.size(); ++v)
-    if (out.roles[v] != FaceMesh::Role::None) table.add(v, out.uvs);
+  ++runs;
   oldUseVertices.swap(out.useVertices), oldUseStarts.swap(out.useStarts);
-  oldBorder.swap(out.border);
-  out.useVertices.clear(), out.useStarts.clear(), out.border.clear();
+  oldUsePlaces.swap(out.usePlaces), oldUseTs.swap(out.useTs);
+  oldBorder.swap(out.border), oldGrid.swap(out.gridVertices);
+  oldUs = out.us, oldVs = out.vs;
+  out.useVertices.clear(), out.useStarts.clear(), out.usePlaces.clear(), out.useTs.clear();
+  out.border.clear();
+  const uint32_t firstUse = model.loops[model.faces[f].firstLoop].firstUse;
   rings.clear();
   rings.starts.push_back(0);
   std::vector<Point2>& uvs = loopUvs;
   std::vector<uint32_t>&places = loopPlaces, &uses = loopUses, &numbers = loopNumbers;
+  std::vector<double>& ts = loopTs;
   std::vector<uint32_t>&firsts = loopFirsts, &vertexOf = loopVertices;
   std::vector<Vec3>& at = loopAt;
   out.useStarts.push_back(0);
   for (uint32_t l = model.faces[f].firstLoop; l < model.faces[f].endLoop; ++l) {
     const ModelLoop& loop = model.loops[l];
     uvs.clear(), places.clear(), uses.clear(), numbers.clear(), at.clear(), firsts.clear();
+    vertexOf.clear(), ts.clear();
     for (uint32_t u = loop.firstUse; u < loop.endUse; ++u) {
       const ModelUse& use = model.uses[u];
       const ModelEdge& edge = model.edges[use.edge];
       const std::vector<EdgeSample>& of = all.of[use.edge];
       const uint32_t count = uint32_t(of.size());
       firsts.push_back(uint32_t(uvs.size()));
+      const size_t inFace = u - firstUse;
+      size_t known = 0, knownEnd = 0;
+      if (updates && inFace + 1 < oldUseStarts.size())
+        known = oldUseStarts[inFace], knownEnd = oldUseStarts[inFace + 1];
       for (uint32_t k = 0; k + 1 < count; ++k) {
+        Corner* corner = nullptr;
         const uint32_t s = use.isReversed ? count - 1 - k : k;
-        Point2 uv = use.curve.at(of[s].t);
+        Point2 uv = placeOf(u, of[s]);
         uint32_t place = all.firstPlace[use.edge] + s - 1;
         if (k == 0) {
           // Where two uses meet, in the middle between them.
@@ -226,8 +261,23 @@ void FaceMesher::State::begin(uint32_t f, const EdgeSamples& all, FaceMesh& out)
           const Point2 end = before.curve.at(before.isReversed ? edgeBefore.from : edgeBefore.to);
           uv = middle(uv, end);
           place = use.isReversed ? edge.toVertex : edge.fromVertex;
-          uv = sharedCorner(place, uv);
+          corner = &cornerOf(place, uv);
+          uv = corner->uv;
         }
+        uint32_t v = corner ? corner->vertex : kNone;
+        // The vertex of the last run at the same sample.
+        while (known < knownEnd &&
+               (use.isReversed ? oldUseTs[known] > of[s].t : oldUseTs[known] < of[s].t))
+          ++known;
+        if (v == kNone && known < knownEnd && oldUseTs[known] == of[s].t) {
+          v = oldUsePlaces[known];
+          if (!(out.uvs[v] == uv && out.positions[v] == of[s].at)) v = kNone;
+        }
+        if (v == kNone)
+          v = addVertex(uv, of[s].at, surface->normalAt(uv.x, uv.y), FaceMesh::Role::Edge);
+        isMet[v] = 1, out.roles[v] = FaceMesh::Role::Edge;
+        if (corner) corner->vertex = v;
+        vertexOf.push_back(v), ts.push_back(of[s].t);
         uvs.push_back(uv), places.push_back(place), at.push_back(of[s].at);
         uses.push_back(u);
         // The interval after the vertex, as the loop runs.
@@ -241,20 +291,12 @@ void FaceMesher::State::begin(uint32_t f, const EdgeSamples& all, FaceMesh& out)
       area += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
     }
     const bool turns = (area < 0) == loop.isOuter;
-    vertexOf.resize(n);
-    for (uint32_t i = 0; i < n; ++i) {
-      const auto isAt = [&](uint32_t v) { return out.positions[v] == at[i]; };
-      uint32_t v = table.find(uvs[i], out.uvs, isAt);
-      if (v == kNone) {
-        v = addVertex(uvs[i], at[i], surface->normalAt(uvs[i].x, uvs[i].y), FaceMesh::Role::Edge);
-        table.add(v, out.uvs);
-      }
-      vertexOf[i] = v, isMet[v] = 1, out.roles[v] = FaceMesh::Role::Edge;
-      // One vertex at a pole: neighbours at one place are one.
-      out.poles[v] = i > 0 && places[i] == places[i - 1]             ? out.poles[vertexOf[i - 1]]
-                     : i > 0 && i + 1 == n && places[i] == places[0] ? out.poles[vertexOf[0]]
-                                                                     : v;
-    }
+    // One vertex at a pole: neighbours at one place are one.
+    for (uint32_t i = 0; i < n; ++i)
+      out.poles[vertexOf[i]] = i > 0 && places[i] == places[i - 1] ? out.poles[vertexOf[i - 1]]
+                               : i > 0 && i + 1 == n && places[i] == places[0]
+                                   ? out.poles[vertexOf[0]]
+                                   : vertexOf[i];
     for (uint32_t k = 0; k < n; ++k) {
       const uint32_t i = turns ? n - 1 - k : k;
       // Turned round, the segment after a vertex is the one before it.
@@ -268,8 +310,14 @@ void FaceMesher::State::begin(uint32_t f, const EdgeSamples& all, FaceMesh& out)
     rings.loops.push_back(l - model.faces[f].firstLoop);
     for (uint32_t u = 0; u < firsts.size(); ++u) {
       const uint32_t end = u + 1 < firsts.size() ? firsts[u + 1] : n;
-      for (uint32_t i = firsts[u]; i <= end; ++i)
-        mesh->useVertices.push_back(out.poles[vertexOf[i == n ? 0 : i]]);
+      for (uint32_t i = firsts[u]; i <= end; ++i) {
+        const uint32_t v = vertexOf[i == n ? 0 : i];
+        const ModelUse& use = model.uses[loop.firstUse + u];
+        const ModelEdge& edge = model.edges[use.edge];
+        mesh->useVertices.push_back(out.poles[v]);
+        mesh->usePlaces.push_back(v);
+        mesh->useTs.push_back(i < end ? ts[i] : use.isReversed ? edge.from : edge.to);
+      }
       mesh->useStarts.push_back(uint32_t(mesh->useVertices.size()));
     }
   }
@@ -332,6 +380,10 @@ FaceProblem FaceMesher::State::checkRings() {
   return problemOf(outcome);
 }
 
+void FaceMesher::forget(uint32_t use) {
+  if (use < state_->knownUvs.size()) state_->knownUvs[use].clear();
+}
+
 FaceProblem FaceMesher::check(uint32_t face, const EdgeSamples& samples, Work& work) {
   State& s = *state_;
   s.work = &work;
@@ -354,12 +406,21 @@ double FaceMesher::State::deviationAt(Point2 uv, Vec3 at) const {
   return size > 0 ? std::fabs(dot(d, n)) / size : length(d);
 }
 
+/// The tolerance in the middle of a triangle of the band.
+double FaceMesher::State::allowedIn(size_t triangle) const {
+  const uint32_t* c = &band.corners[3 * triangle];
+  const Point2 a = mesh->uvs[c[0]], b = mesh->uvs[c[1]], d = mesh->uvs[c[2]];
+  return allowance.at({(a.x + b.x + d.x) / 3, (a.y + b.y + d.y) / 3});
+}
+
 bool FaceMesher::State::layOut(const Density::Lines& lines) {
   density->u.lines(lines.u, us), density->v.lines(lines.v, vs);
   localUs.clear(), localVs.clear();
   for (const double u : us) localUs.push_back((u - origin.x) * scale.x);
   for (const double v : vs) localVs.push_back((v - origin.y) * scale.y);
-  if (!work->tick(20 * us.size() * vs.size())) return false;
+  const uint64_t places = uint64_t(us.size()) * vs.size();
+  if (!work->fits(double(places) * kBytesAPlace)) work->fail(Status::OutOfMemory);
+  if (!work->tick(100 * places + 300 * rings.at.size())) return false;
   trace.run(rings.at, rings.starts, localUs, localVs);
   // Intervals and strips that the last run had too.
   const auto findNew = [](const std::vector<double>& before, const std::vector<double>& now,
@@ -375,9 +436,18 @@ bool FaceMesher::State::layOut(const Density::Lines& lines) {
   gridStrips.assign(us.size() - 1, {false, 0});
   findNew(mesh->us, us, isNewU, [&](size_t i, size_t k) {
     gridStrips[i] = mesh->gridStrips[k];
-    if (gridStrips[i].off > tolerance) isNewU[i] = 1;
+    if (gridStrips[i].off > allowance.betweenU(us[i], us[i + 1])) isNewU[i] = 1;
   });
   findNew(mesh->vs, vs, isNewV, [](size_t, size_t) {});
+  const auto findOld = [](const std::vector<double>& before, const std::vector<double>& now,
+                          std::vector<uint32_t>& old) {
+    old.assign(now.size(), kNone);
+    for (size_t i = 0, k = 0; i < now.size(); ++i) {
+      while (k < before.size() && before[k] < now[i]) ++k;
+      if (k < before.size() && before[k] == now[i]) old[i] = uint32_t(k);
+    }
+  };
+  if (updates) findOld(oldUs, us, oldLineU), findOld(oldVs, vs, oldLineV);
   return true;
 }
 
@@ -385,6 +455,7 @@ bool FaceMesher::State::layOut(const Density::Lines& lines) {
 void FaceMesher::State::measureCells(const Density::Lines& lines, bool& isRefined) {
   const size_t nu = us.size(), nv = vs.size();
   isRefined = false;
+  mesh->excess = 0;
   halvedU.assign(nu - 1, 0), halvedV.assign(nv - 1, 0);
   if (trace.runs.empty()) return;
   const auto at = [](const std::vector<double>& of, size_t i) {
@@ -411,8 +482,21 @@ void FaceMesher::State::measureCells(const Density::Lines& lines, bool& isRefine
     }
     const auto corner = [&](size_t a) { return mesh->positions[gridVertexAt(uint32_t(a))]; };
     const size_t low = i * nv + j, high = low + nv;
-    off[0] = std::fabs(dot(n, middle(corner(high), corner(low + 1)) - m));
-    off[1] = std::fabs(dot(n, middle(corner(low), corner(high + 1)) - m));
+    const Vec3 a = corner(low), b = corner(high), c = corner(low + 1), d = corner(high + 1);
+    off[0] = std::fabs(dot(n, middle(b, c) - m)), off[1] = std::fabs(dot(n, middle(a, d) - m));
+    const double du = us[i + 1] - us[i], dv = vs[j + 1] - vs[j];
+    if (!density->isFar(du, dv)) return;
+    // The middle alone does not tell.
+    for (const double x : {0.25, 0.75})
+      for (const double y : {0.25, 0.75}) {
+        const Point2 uv{us[i] + x * du, vs[j] + y * dv};
+        // On the triangles below and above each diagonal.
+        const Vec3 falling =
+            x + y < 1 ? a + x * (b - a) + y * (c - a) : d + (1 - x) * (c - d) + (1 - y) * (b - d);
+        const Vec3 rising = x > y ? a + x * (b - a) + y * (d - b) : a + y * (c - a) + x * (d - c);
+        off[0] = std::max(off[0], deviationAt(uv, falling));
+        off[1] = std::max(off[1], deviationAt(uv, rising));
+      }
   };
   for (size_t r = 0; r < trace.runs.size();) {
     const uint32_t i = trace.runs[r].strip;
@@ -432,11 +516,18 @@ void FaceMesher::State::measureCells(const Density::Lines& lines, bool& isRefine
     each([&](uint32_t, const double(&off)[2]) {
       most[0] = std::max(most[0], off[0]), most[1] = std::max(most[1], off[1]);
     });
-    if (isNewU[i]) strip = {most[1] < most[0], 0};
+    if (isNewU[i]) {
+      // Of two diagonals that both are near enough, the one whose strips need no index to begin with.
+      const bool easy = model.faces[face].isReversed;
+      const bool isNear = most[easy] <= 0.5 * allowance.betweenU(us[i], us[i + 1]);
+      strip = {isNear ? easy : most[1] < most[0], 0};
+    }
     strip.off = std::max(strip.off, most[strip.rises]);
-    if (most[strip.rises] > tolerance) {
+    if (most[strip.rises] > allowance.betweenU(us[i], us[i + 1])) {
       each([&](uint32_t j, const double(&off)[2]) {
-        if (off[strip.rises] <= tolerance) return;
+        const double allowed = allowance.at({middleUs[i], middleVs[j]});
+        mesh->excess = std::max(mesh->excess, off[strip.rises] / allowed);
+        if (off[strip.rises] <= allowed) return;
         const uint32_t nodeU = lines.u.nodes[i], nodeV = lines.v.nodes[j];
         const double eu = density->u.error(nodeU), ev = density->v.error(nodeV);
         const bool alongU =
@@ -456,16 +547,11 @@ uint32_t FaceMesher::State::gridVertexAt(uint32_t name) {
   const uint32_t nv = uint32_t(vs.size());
   const Point2 uv{us[name / nv], vs[name % nv]};
   if (updates) {
-    v = table.find(uv, mesh->uvs,
-                   [&](uint32_t k) { return mesh->roles[k] != FaceMesh::Role::Edge; });
-    if (v != kNone) {
-      isMet[v] = 1, mesh->roles[v] = FaceMesh::Role::Grid;
-      return v;
-    }
+    const uint32_t oldU = oldLineU[name / nv], oldV = oldLineV[name % nv];
+    if (oldU != kNone && oldV != kNone) v = oldGrid[oldU * oldVs.size() + oldV];
+    if (v != kNone) return v;
     const TangentPoint p = surface->tangentsAt(uv.x, uv.y);
-    v = addVertex(uv, p.at, surface->normalOf(p, uv.x, uv.y), FaceMesh::Role::Grid);
-    table.add(v, mesh->uvs);
-    return v;
+    return v = addVertex(uv, p.at, surface->normalOf(p, uv.x, uv.y), FaceMesh::Role::Grid);
   }
   const double *p = &gridAt[3 * size_t(name)], *n = &gridNormals[3 * size_t(name)];
   return v = addVertex(uv, {p[0], p[1], p[2]}, {n[0], n[1], n[2]}, FaceMesh::Role::Grid);
@@ -485,7 +571,16 @@ bool FaceMesher::State::meshGrid(Density::Lines& lines) {
     measureCells(lines, isRefined);
     if (!isRefined || k == kMostRefinings) break;
     density->u.halve(halvedU, lines.u), density->v.halve(halvedV, lines.v);
-    if (updates) continue;
+    if (updates) {
+      // What this round has made is there for the next.
+      for (uint32_t name = 0; name < gridVertex.size(); ++name) {
+        const uint32_t oldU = oldLineU[name / vs.size()], oldV = oldLineV[name % vs.size()];
+        if (gridVertex[name] == kNone && oldU != kNone && oldV != kNone)
+          gridVertex[name] = oldGrid[oldU * oldVs.size() + oldV];
+      }
+      oldGrid.swap(gridVertex), oldUs = us, oldVs = vs;
+      continue;
+    }
     mesh->positions.resize(ringVertices), mesh->normals.resize(ringVertices);
     mesh->uvs.resize(ringVertices), mesh->roles.resize(ringVertices);
     mesh->poles.resize(ringVertices), isMet.resize(ringVertices);
@@ -503,9 +598,12 @@ void FaceMesher::State::writeQuads() {
   for (const CellRun& run : trace.runs) {
     const uint32_t i = run.strip;
     const bool rises = gridStrips[i].rises;
+    // A strip that begins on the left line has diagonals that fall, and counter-clockwise triangles; one that begins on the right
+    // has both the other way, but for its first index twice.
+    if (rises != model.faces[face].isReversed)
+      quadStrips.push_back(gridVertexAt((rises ? i + 1 : i) * nv + run.first));
     for (uint32_t j = run.first; j <= run.end; ++j) {
       const uint32_t a = gridVertexAt(i * nv + j), b = gridVertexAt((i + 1) * nv + j);
-      // A strip that begins on the left line has diagonals that fall.
       quadStrips.push_back(rises ? b : a), quadStrips.push_back(rises ? a : b);
       if (j == run.end) break;
       const uint32_t c = gridVertexAt(i * nv + j + 1), d = gridVertexAt((i + 1) * nv + j + 1);
@@ -563,6 +661,7 @@ FaceProblem FaceMesher::State::triangulateBand() {
   band.corners.clear();
   for (const uint32_t v : bandFound) band.corners.push_back(vertices[v]);
   bandOff.assign(band.corners.size() / 3, Sampling::kNoLimit);
+  oldCorners.clear();
   return {};
 }
 
@@ -596,10 +695,10 @@ void FaceMesher::State::findChanges(std::vector<Box2>& changed) const {
   // Of a use, from each vertex that stays to the next one that stays, if there are others between.
   const auto at = [&](uint32_t v) { return scaled(mesh->uvs[v]); };
   for (size_t u = 0; u + 1 < oldUseStarts.size(); ++u) {
-    const uint32_t *a = &oldUseVertices[oldUseStarts[u]],
-                   *aEnd = &oldUseVertices[0] + oldUseStarts[u + 1];
-    const uint32_t *b = &mesh->useVertices[mesh->useStarts[u]],
-                   *bEnd = &mesh->useVertices[0] + mesh->useStarts[u + 1];
+    const uint32_t *a = &oldUsePlaces[oldUseStarts[u]],
+                   *aEnd = &oldUsePlaces[0] + oldUseStarts[u + 1];
+    const uint32_t *b = &mesh->usePlaces[mesh->useStarts[u]],
+                   *bEnd = &mesh->usePlaces[0] + mesh->useStarts[u + 1];
     while (a + 1 < aEnd && b + 1 < bEnd) {
       const uint32_t *na = a + 1, *nb = b + 1;
       // Old vertices that are still met are those of the new list, in the same order.
@@ -665,13 +764,20 @@ bool FaceMesher::State::patchBand() {
   size_t kept = 0;
   std::vector<uint8_t> stays;
   band.corners = mesh->band;
-  if (!patch.run({bandAt, border, islands, isGone, changed}, triangulator, *work, band.corners,
-                 kept, stays))
+  if (!patch.run({bandAt, border, islands, isGone, changed}, triangulator, *work, mesh->bandTwins,
+                 band.corners, kept, stays))
     return false;
   bandOff.clear();
   for (size_t t = 0; t < stays.size(); ++t)
     if (stays[t]) bandOff.push_back(mesh->bandOff[t]);
   bandOff.resize(band.corners.size() / 3, Sampling::kNoLimit);
+  // Strips of what stays, in their new places.
+  bandLinks.bits.clear(), oldCorners.clear();
+  for (size_t t = 0; t < stays.size(); ++t) {
+    if (!stays[t]) continue;
+    bandLinks.bits.push_back(mesh->bandLinks.bits[t]);
+    oldCorners.insert(oldCorners.end(), &mesh->band[3 * t], &mesh->band[3 * t] + 3);
+  }
   return true;
 }
 
@@ -691,10 +797,14 @@ bool FaceMesher::State::edgeIsOff(uint32_t from, uint32_t to, FaceProblem& probl
   const std::vector<EdgeSample>& of = samples->of[model.uses[use].edge];
   const ModelEdge& edge = model.edges[model.uses[use].edge];
   if (of[sample + 1].t - of[sample].t < kShortInterval * (edge.to - edge.from)) return false;
-  const double t = 0.5 * (of[sample].t + of[sample + 1].t);
-  const double off =
-      deviationAt(model.uses[use].curve.at(t), middle(of[sample].at, of[sample + 1].at));
-  if (off <= tolerance + edge.tolerance) return false;
+  bool isOff = false;
+  for (const double share : {0.25, 0.5, 0.75}) {
+    const Point2 uv =
+        model.uses[use].curve.at(of[sample].t + share * (of[sample + 1].t - of[sample].t));
+    const Vec3 chord = of[sample].at + share * (of[sample + 1].at - of[sample].at);
+    isOff |= deviationAt(uv, chord) > allowance.at(uv) + edge.tolerance;
+  }
+  if (!isOff) return false;
   problem.kind = FaceProblem::Kind::EdgeOff;
   problem.use = use, problem.sample = sample;
   return true;
@@ -725,6 +835,8 @@ FaceProblem FaceMesher::State::refineBand() {
   bandAt.resize(mesh->positions.size());
   for (uint32_t v = 0; v < bandAt.size(); ++v) bandAt[v] = scaled(mesh->uvs[v]);
   if (!findTwins(band.corners, uint32_t(bandAt.size()), *work, band.twins)) return ended;
+  isFresh.resize(bandOff.size());
+  for (size_t t = 0; t < bandOff.size(); ++t) isFresh[t] = bandOff[t] == Sampling::kNoLimit;
   if (density->isFlat()) {
     std::fill(bandOff.begin(), bandOff.end(), 0);
     improveAngles();
@@ -733,9 +845,8 @@ FaceProblem FaceMesher::State::refineBand() {
   const auto at = [&](uint32_t v) -> Vec3 { return mesh->positions[v]; };
   known = band.corners;  // corners of the triangles whose deviation is known
   for (size_t t = 0; t < bandOff.size(); ++t)
-    if (bandOff[t] > tolerance) known[3 * t] = kNone;
+    if (bandOff[t] > allowance.least() && bandOff[t] > allowedIn(t)) known[3 * t] = kNone;
   const size_t mostVertices = 64 + 4 * bandAt.size();
-  const double quick = 0.25 * tolerance;
   struct Spot {
     uint32_t half;  // of the triangle, or of the edge
     uint32_t corners[3];
@@ -754,7 +865,8 @@ FaceProblem FaceMesher::State::refineBand() {
     for (uint32_t t = 0; t < triangles; ++t) {
       if (!isNew[t]) continue;
       const uint32_t* c = &band.corners[3 * t];
-      Spot worst{kNone, {c[0], c[1], c[2]}, false, tolerance};
+      const double allowed = allowedIn(t), quick = 0.25 * allowed;
+      Spot worst{kNone, {c[0], c[1], c[2]}, false, allowed};
       double most = 0;
       const auto consider = [&](uint32_t half, bool onEdge, double here) {
         most = std::max(most, here);
@@ -776,7 +888,17 @@ FaceProblem FaceMesher::State::refineBand() {
         const Point2 p = bandAt[c[0]], q = bandAt[c[1]], r = bandAt[c[2]];
         const Point2 uv = unscaled({(p.x + q.x + r.x) / 3, (p.y + q.y + r.y) / 3});
         const Vec3 centroid = (1.0 / 3) * (at(c[0]) + at(c[1]) + at(c[2]));
-        consider(3 * t, false, deviationAt(uv, centroid));
+        double inside = deviationAt(uv, centroid);
+        const Point2 a = mesh->uvs[c[0]], b = mesh->uvs[c[1]], d = mesh->uvs[c[2]];
+        const double du = std::max({a.x, b.x, d.x}) - std::min({a.x, b.x, d.x}),
+                     dv = std::max({a.y, b.y, d.y}) - std::min({a.y, b.y, d.y});
+        // The middles alone do not tell: look at those between them and the corners too.
+        for (int k = 0; k < 3 && density->isFar(du, dv); ++k) {
+          const Point2 e = mesh->uvs[c[k]];
+          const Point2 place{0.5 * (uv.x + e.x), 0.5 * (uv.y + e.y)};
+          inside = std::max(inside, deviationAt(place, middle(centroid, at(c[k]))));
+        }
+        consider(3 * t, false, inside);
       }
       bandOff[t] = most;
       if (worst.half == kNone) {
@@ -825,7 +947,11 @@ FaceProblem FaceMesher::State::refineBand() {
     }
   }
   improveAngles();
-  for (const double here : bandOff) mesh->deviation = std::max(mesh->deviation, here);
+  for (size_t t = 0; t < bandOff.size(); ++t) {
+    mesh->deviation = std::max(mesh->deviation, bandOff[t]);
+    if (bandOff[t] > allowance.least())
+      mesh->excess = std::max(mesh->excess, bandOff[t] / allowedIn(t));
+  }
   return work->going() ? FaceProblem{} : ended;
 }
 
@@ -848,6 +974,9 @@ void FaceMesher::State::improveAngles() {
     for (uint32_t h = 0; h < band.corners.size(); ++h) {
       const uint32_t g = band.twins[h];
       if (g == kNone || g < h) continue;
+      // What stays was looked at before.
+      const auto stays = [&](uint32_t t) { return t < isFresh.size() && !isFresh[t]; };
+      if (stays(h / 3) && stays(g / 3)) continue;
       const uint32_t a = band.from(h), b = band.to(h), c = band.apex(h), d = band.apex(g);
       const auto pole = [&](uint32_t v) { return mesh->poles[v] != v; };
       if (pole(a) || pole(b) || pole(c) || pole(d)) continue;
@@ -858,10 +987,11 @@ void FaceMesher::State::improveAngles() {
       if (!(turn(bandAt[c], bandAt[d], bandAt[b]) > 0 && turn(bandAt[d], bandAt[c], bandAt[a]) > 0))
         continue;
       double off = std::max(bandOff[h / 3], bandOff[g / 3]);
-      if (density->bound(mesh->uvs[c], mesh->uvs[d]) >= 0.25 * tolerance) {
-        const Point2 uv = unscaled(middle(bandAt[c], bandAt[d]));
+      const Point2 uv = unscaled(middle(bandAt[c], bandAt[d]));
+      const double allowed = allowance.at(uv);
+      if (density->bound(mesh->uvs[c], mesh->uvs[d]) >= 0.25 * allowed) {
         const double here = deviationAt(uv, middle(at(c), at(d)));
-        if (here > tolerance) continue;
+        if (here > allowed) continue;
         off = std::max(off, here);
       }
       band.flip(h);
@@ -872,49 +1002,82 @@ void FaceMesher::State::improveAngles() {
   }
 }
 
+/// Strips of the band: all anew, or in an update those of triangles that have changed, joined to what stays.
+void FaceMesher::State::linkBand() {
+  if (oldCorners.empty()) {
+    linkStrips(band.twins, *work, bandLinks);
+    return;
+  }
+  const uint32_t count = band.triangleCount();
+  std::vector<uint8_t>& bits = bandLinks.bits;
+  bits.resize(count, 0);
+  isNew.assign(count, 1);
+  for (uint32_t t = 0; 3 * t < oldCorners.size(); ++t)
+    isNew[t] = !std::equal(&oldCorners[3 * t], &oldCorners[3 * t] + 3, &band.corners[3 * t]);
+  changed.clear();
+  for (uint32_t t = 0; t < count; ++t) {
+    if (isNew[t]) bits[t] = 0;
+    bool isCut = isNew[t] != 0;
+    for (uint32_t h = 3 * t; h < 3 * t + 3 && !isNew[t]; ++h) {
+      if (!bandLinks.linked(h)) continue;
+      const uint32_t g = band.twins[h];
+      if (g != kNone && !isNew[g / 3]) continue;
+      bits[t] &= uint8_t(~(1u << (h % 3)));
+      isCut = true;
+    }
+    if (isCut) changed.push_back(t);
+  }
+  joinStrips(band.twins, changed, bandLinks, [](uint32_t) { return true; });
+}
+
 /// Triangles and strips of the whole face, on its own side, and what the next update begins with.
 void FaceMesher::State::finish() {
   mesh->us = us, mesh->vs = vs, mesh->gridStrips = gridStrips;
-  mesh->band = band.corners, mesh->bandOff = bandOff;
+  mesh->gridVertices = gridVertex;
   for (const uint32_t v : rings.vertex) mesh->border.push_back(v);
   for (const uint32_t name : trace.border) mesh->border.push_back(gridVertex[name]);
   for (const uint32_t name : trace.islands) mesh->border.push_back(gridVertex[name]);
   // Numbers of vertices that are no longer there.
   for (const uint32_t v : band.corners) isMet[v] = 1;
+  for (const uint32_t v : gridVertex)
+    if (v != kNone) isMet[v] = 1;
   for (uint32_t v = 0; v < isMet.size() && updates; ++v) {
     if (isMet[v] || mesh->roles[v] == FaceMesh::Role::None) continue;
     mesh->roles[v] = FaceMesh::Role::None;
     mesh->unused.push_back(v);
   }
-  std::vector<uint32_t>& corners = bandCorners;
-  corners.clear();
-  for (uint32_t t = 0; t < band.triangleCount(); ++t) {
+  std::vector<uint32_t>&strips = bandStrips, &starts = bandStripStarts;
+  strips.clear(), starts.clear();
+  linkBand();
+  const uint32_t count = band.triangleCount();
+  allTriangles.resize(count);
+  for (uint32_t t = 0; t < count; ++t) allTriangles[t] = t;
+  writeStrips(band.corners, band.twins, bandLinks, allTriangles, *work, strips, starts);
+  for (uint32_t& v : strips) v = mesh->poles[v];
+  mesh->triangles = quadTriangles;
+  for (uint32_t t = 0; t < count; ++t) {
     const uint32_t a = mesh->poles[band.corners[3 * t]], b = mesh->poles[band.corners[3 * t + 1]],
                    c = mesh->poles[band.corners[3 * t + 2]];
-    if (a != b && b != c && c != a) corners.insert(corners.end(), {a, b, c});
+    if (a != b && b != c && c != a) mesh->triangles.insert(mesh->triangles.end(), {a, b, c});
   }
-  std::vector<uint32_t>&twins = bandTwins, &strips = bandStrips, &starts = bandStripStarts;
-  strips.clear(), starts.clear();
-  findTwins(corners, uint32_t(mesh->positions.size()), *work, twins);
-  makeStrips(corners, twins, *work, strips, starts);
-  mesh->triangles = quadTriangles;
-  mesh->triangles.insert(mesh->triangles.end(), corners.begin(), corners.end());
   mesh->strips = quadStrips, mesh->stripStarts = quadStarts;
   const uint32_t first = uint32_t(mesh->strips.size());
   mesh->strips.insert(mesh->strips.end(), strips.begin(), strips.end());
   for (size_t i = 1; i < starts.size(); ++i) mesh->stripStarts.push_back(first + starts[i]);
-  if (model.faces[face].isReversed) turnRound(*mesh);
+  mesh->band.swap(band.corners), mesh->bandTwins.swap(band.twins);
+  mesh->bandOff.swap(bandOff), mesh->bandLinks.bits.swap(bandLinks.bits);
+  if (model.faces[face].isReversed) turnRound(*mesh, quadStarts.size() - 1);
 }
 
 FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& density,
-                            Density::Lines& lines, double tolerance, bool updates, Work& work,
-                            FaceMesh& mesh) {
+                            Density::Lines& lines, const Allowance& allowance, bool updates,
+                            Work& work, FaceMesh& mesh) {
   State& s = *state_;
   s.work = &work;
-  s.density = &density, s.tolerance = tolerance;
+  s.density = &density, s.allowance = allowance;
   s.updates = updates && !mesh.band.empty();
   s.begin(face, samples, mesh);
-  mesh.deviation = 0;
+  mesh.deviation = mesh.excess = 0;
   const auto positive = [](double x) { return x > 0 && std::isfinite(x) ? x : 1; };
   std::vector<double> us, vs;
   density.u.lines(lines.u, us), density.v.lines(lines.v, vs);
@@ -931,6 +1094,9 @@ FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& 
     if (problem.kind == FaceProblem::Kind::None) {
       problem = s.refineBand();
       if (problem.kind == FaceProblem::Kind::None) s.finish();
+      // All of it at one place, or along a line.
+      if (problem.kind == FaceProblem::Kind::None && mesh.triangles.empty())
+        problem.kind = FaceProblem::Kind::Crossing, problem.fault = SurfaceFault::Degenerate;
       if (!work.going()) problem.kind = FaceProblem::Kind::Ended;
     }
   }

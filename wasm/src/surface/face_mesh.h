@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/work.h"
+#include "polygon/strips/strips.h"
 #include "surface/density.h"
 #include "surface/edge_tree.h"
 #include "surface/model.h"
@@ -27,19 +28,26 @@ struct FaceMesh {
   std::vector<uint32_t> strips, stripStarts;
   // For each use, vertices from where the loop enters it to where it leaves it.
   std::vector<uint32_t> useVertices, useStarts;
+  // The same vertices before those at poles were made one, and the parameters of the edges there.
+  std::vector<uint32_t> usePlaces;
+  std::vector<double> useTs;
   double deviation = 0;  // largest measured
+  double excess = 0;     // largest as a share of what is allowed
 
   // What the next update begins with.
   std::vector<double> us, vs;
+  std::vector<uint32_t> gridVertices;  // [us vs] or kNone
   struct Strip {
     bool rises;  // which diagonal its quads have: from the lower left, or from the upper left
     double off;  // their largest deviation
   };
   std::vector<Strip> gridStrips;
   // Corners of the polygon that are one vertex in space, at a pole, are several here; `pole` names the vertex.
-  std::vector<uint32_t> poles;   // [vertices] itself, or that vertex
-  std::vector<uint32_t> band;    // [3b] triangles between grid and trimming curves
-  std::vector<double> bandOff;   // [b] their largest deviation
+  std::vector<uint32_t> poles;      // [vertices] itself, or that vertex
+  std::vector<uint32_t> band;       // [3b] triangles between grid and trimming curves
+  std::vector<double> bandOff;      // [b] their largest deviation
+  std::vector<uint32_t> bandTwins;  // [3b]
+  StripLinks bandLinks;
   std::vector<uint32_t> border;  // vertices that are on the band's border or islands in it
 
   /// Empties it; its memory stays for the next run.
@@ -70,11 +78,14 @@ class FaceMesher {
   ~FaceMesher();
 
   /// Meshes a face. `lines` may be refined where the grid is measured to be off.
-  ///   tolerance  most distance of mesh and surface
+  ///   allowance  most distance of mesh and surface
   ///   mesh       with `updates` that of an earlier run, of which whatever still fits stays; after a problem it is empty
   FaceProblem run(uint32_t face, const EdgeSamples& samples, Density& density,
-                  Density::Lines& lines, double tolerance, bool updates, Work& work,
+                  Density::Lines& lines, const Allowance& allowance, bool updates, Work& work,
                   FaceMesh& mesh);
+
+  /// Forgets the places of a use in the domain, when its curve or its edge has become another one.
+  void forget(uint32_t use);
 
   /// Only whether the rings of a face are those of a polygon.
   FaceProblem check(uint32_t face, const EdgeSamples& samples, Work& work);

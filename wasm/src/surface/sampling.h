@@ -40,6 +40,12 @@ class Fineness {
     for (int i = 0; i < 4; ++i) lengths_[i] = c.rowLength(i);
     // A pixel at a place is w over these, in the model's unit.
     perPixel_ = std::fmax(lengths_[0] * c.width, lengths_[1] * c.height) / 2;
+    // Of a perspective z is a w + b along the axis; nothing is shown nearer than where that is -w.
+    const Vec3 z{c.matrix[2], c.matrix[6], c.matrix[10]}, w{c.matrix[3], c.matrix[7], c.matrix[11]};
+    if (dot(w, w) > 0) {
+      const double a = dot(z, w) / dot(w, w), b = c.matrix[14] - a * c.matrix[15];
+      near_ = std::fmax(near_, -b / (1 + a));
+    }
   }
 
   /// For the ball of that radius: infinite where the picture does not show it.
@@ -54,7 +60,7 @@ class Fineness {
           w - x < -radius * (lengths_[i] + lengths_[3]))
         return Sampling::kNoLimit;
     }
-    const double nearest = std::fmax(w - radius * lengths_[3], 0.05 * std::fabs(w) + 1e-300);
+    const double nearest = std::fmax(w - radius * lengths_[3], near_);
     return std::fmin(sampling_.tolerance, sampling_.pixels * nearest / perPixel_);
   }
   double angle() const { return sampling_.angle; }
@@ -63,7 +69,7 @@ class Fineness {
 
  private:
   const Sampling& sampling_;
-  double lengths_[4] = {}, perPixel_ = 1;
+  double lengths_[4] = {}, perPixel_ = 1, near_ = 1e-300;
 };
 
 }  // namespace sf

@@ -11,19 +11,44 @@ constexpr double kMargin = 0.15;
 /// A vertex inside is left out if a segment comes nearer to it than this share of a cell.
 constexpr double kNearVertex = 0.35;
 
-uint32_t intervalOf(ArrayView<const double> at, double x) {
+}  // namespace
+
+/// The interval that x lies in, searched from a near one.
+uint32_t Trace::intervalNear(ArrayView<const double> at, double x, uint32_t near) {
+  const uint32_t last = uint32_t(at.size()) - 2;
+  for (int steps = 0; steps < 8; ++steps) {
+    if (x < at[near] && near > 0)
+      --near;
+    else if (x >= at[near + 1] && near < last)
+      ++near;
+    else
+      return near;
+  }
   const auto after = std::upper_bound(at.begin() + 1, at.end() - 1, x);
   return uint32_t(after - at.begin()) - 1;
 }
 
-}  // namespace
-
-uint32_t Trace::stripOf(double u) const { return intervalOf(us_, u); }
-uint32_t Trace::rowOf(double v) const { return intervalOf(vs_, v); }
+void Trace::measure() {
+  const auto each = [](ArrayView<const double> at, std::vector<double>& margins,
+                       std::vector<double>& per) {
+    const size_t cells = at.size() - 1;
+    margins.resize(cells), per.resize(cells + 1);
+    for (size_t i = 0; i < cells; ++i) margins[i] = kMargin * (at[i + 1] - at[i]);
+    for (size_t i = 0; i <= cells; ++i) {
+      const double before = i > 0 ? at[i] - at[i - 1] : at[1] - at[0];
+      const double after = i < cells ? at[i + 1] - at[i] : before;
+      per[i] = 1 / std::min(before, after);
+    }
+  };
+  each(us_, marginU_, perU_);
+  each(vs_, marginV_, perV_);
+  nearStrip_ = nearRow_ = 0;
+}
 
 void Trace::run(ArrayView<const Point2> at, ArrayView<const uint32_t> starts,
                 ArrayView<const double> us, ArrayView<const double> vs) {
   us_ = us, vs_ = vs;
+  measure();
   marks_.clear(), crossings_.clear();
   isNear_.assign(us.size() * vs.size(), 0);
   for (size_t r = 0; r + 1 < starts.size(); ++r) {
@@ -39,32 +64,45 @@ void Trace::run(ArrayView<const Point2> at, ArrayView<const uint32_t> starts,
   findIslands();
 }
 
+/// Adds a mark, to that of the segment before if both are in one place.
+void Trace::mark(const Mark& mark) {
+  if (!marks_.empty()) {
+    Mark& last = marks_.back();
+    if (last.strip == mark.strip && mark.first <= last.end && last.first <= mark.end) {
+      last.first = std::min(last.first, mark.first), last.end = std::max(last.end, mark.end);
+      last.sign += mark.sign;
+      return;
+    }
+  }
+  marks_.push_back(mark);
+}
+
 void Trace::markSegment(Point2 a, Point2 b) {
   const Point2 low = a.x <= b.x ? a : b, high = a.x <= b.x ? b : a;
   const uint32_t strips = uint32_t(us_.size()) - 1, rows = uint32_t(vs_.size()) - 1;
-  uint32_t first = stripOf(low.x), last = stripOf(high.x);
+  const uint32_t first = intervalNear(us_, low.x, nearStrip_),
+                 last = intervalNear(us_, high.x, first);
+  nearStrip_ = first;
   const double slope = high.x > low.x ? (high.y - low.y) / (high.x - low.x) : 0;
-  const auto near = [&](uint32_t s) { return kMargin * (us_[s + 1] - us_[s]); };
-  const uint32_t from = first > 0 && low.x - us_[first] < near(first - 1) ? first - 1 : first;
+  const uint32_t from = first > 0 && low.x - us_[first] < marginU_[first - 1] ? first - 1 : first;
   const uint32_t to =
-      last + 1 < strips && us_[last + 1] - high.x < near(last + 1) ? last + 1 : last;
+      last + 1 < strips && us_[last + 1] - high.x < marginU_[last + 1] ? last + 1 : last;
   for (uint32_t s = from; s <= to; ++s) {
     // The part of the segment over this strip and its margin.
-    const double margin = near(s);
+    const double margin = marginU_[s];
     const double x0 = std::clamp(us_[s] - margin, low.x, high.x),
                  x1 = std::clamp(us_[s + 1] + margin, low.x, high.x);
     double y0 = x0 <= low.x ? low.y : x0 >= high.x ? high.y : low.y + slope * (x0 - low.x);
     double y1 = x1 >= high.x ? high.y : x1 <= low.x ? low.y : low.y + slope * (x1 - low.x);
     if (high.x == low.x) y0 = low.y, y1 = high.y;
     if (y0 > y1) std::swap(y0, y1);
-    const uint32_t r0 = rowOf(y0), r1 = rowOf(y1);
-    const auto height = [&](uint32_t r) { return vs_[r + 1] - vs_[r]; };
-    const uint32_t lowest = r0 > 0 && y0 - vs_[r0] < kMargin * height(r0 - 1) ? r0 - 1 : r0;
-    const uint32_t highest =
-        r1 + 1 < rows && vs_[r1 + 1] - y1 < kMargin * height(r1 + 1) ? r1 + 1 : r1;
+    const uint32_t r0 = intervalNear(vs_, y0, nearRow_), r1 = intervalNear(vs_, y1, r0);
+    nearRow_ = r0;
+    const uint32_t lowest = r0 > 0 && y0 - vs_[r0] < marginV_[r0 - 1] ? r0 - 1 : r0;
+    const uint32_t highest = r1 + 1 < rows && vs_[r1 + 1] - y1 < marginV_[r1 + 1] ? r1 + 1 : r1;
     const double middle = 0.5 * (us_[s] + us_[s + 1]);
     const bool crosses = low.x <= middle && middle < high.x;
-    marks_.push_back({s, lowest, highest + 1, crosses ? (a.x < b.x ? 1 : -1) : 0});
+    mark({s, lowest, highest + 1, crosses ? (a.x < b.x ? 1 : -1) : 0});
     markNear(s, lowest, highest + 1, a, b);
   }
   // Lines that it crosses: each from its left end on, without its right one.
@@ -77,22 +115,16 @@ void Trace::markSegment(Point2 a, Point2 b) {
 
 /// Marks vertices of a strip's cells that are near to a segment, in units of the cells around them.
 void Trace::markNear(uint32_t strip, uint32_t first, uint32_t end, Point2 a, Point2 b) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
   for (uint32_t i = strip; i <= strip + 1; ++i) {
-    const double width = i == 0                ? us_[1] - us_[0]
-                         : i + 1 == us_.size() ? us_[i] - us_[i - 1]
-                                               : std::min(us_[i] - us_[i - 1], us_[i + 1] - us_[i]);
+    const double x = us_[i] - a.x, px = perU_[i], px2 = px * px;
     for (uint32_t j = first; j <= end; ++j) {
       uint8_t& near = isNear_[name(i, j)];
       if (near) continue;
-      const double height = j == 0 ? vs_[1] - vs_[0]
-                            : j + 1 == vs_.size()
-                                ? vs_[j] - vs_[j - 1]
-                                : std::min(vs_[j] - vs_[j - 1], vs_[j + 1] - vs_[j]);
-      const double x = (us_[i] - a.x) / width, y = (vs_[j] - a.y) / height;
-      const double dx = (b.x - a.x) / width, dy = (b.y - a.y) / height;
-      const double square = dx * dx + dy * dy;
-      const double t = square > 0 ? std::clamp((x * dx + y * dy) / square, 0.0, 1.0) : 0;
-      const double ex = x - t * dx, ey = y - t * dy;
+      const double y = vs_[j] - a.y, py = perV_[j], py2 = py * py;
+      const double square = dx * dx * px2 + dy * dy * py2, along = x * dx * px2 + y * dy * py2;
+      const double t = along <= 0 ? 0 : along >= square ? 1 : along / square;
+      const double ex = (x - t * dx) * px, ey = (y - t * dy) * py;
       near = ex * ex + ey * ey < kNearVertex * kNearVertex;
     }
   }
@@ -100,9 +132,17 @@ void Trace::markNear(uint32_t strip, uint32_t first, uint32_t end, Point2 a, Poi
 
 void Trace::findRuns() {
   const uint32_t strips = uint32_t(us_.size()) - 1, rows = uint32_t(vs_.size()) - 1;
-  std::sort(marks_.begin(), marks_.end(), [](const Mark& a, const Mark& b) {
-    return a.strip < b.strip || (a.strip == b.strip && a.first < b.first);
-  });
+  // By strips, and within them by rows.
+  firsts_.assign(strips + 1, 0);
+  for (const Mark& mark : marks_) ++firsts_[mark.strip];
+  uint32_t sum = 0;
+  for (uint32_t& first : firsts_) sum += first, first = sum - first;
+  sorted_.resize(marks_.size());
+  for (const Mark& mark : marks_) sorted_[firsts_[mark.strip]++] = mark;
+  marks_.swap(sorted_);
+  for (uint32_t s = 0, begin = 0; s < strips; begin = firsts_[s++])
+    std::sort(marks_.begin() + begin, marks_.begin() + firsts_[s],
+              [](const Mark& a, const Mark& b) { return a.first < b.first; });
   runs.clear(), dirty_.clear();
   dirtyStarts_.assign(1, 0);
   size_t m = 0;

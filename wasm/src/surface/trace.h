@@ -51,17 +51,23 @@ class Trace {
     int sign;
   };
 
+  void measure();
   void markSegment(Point2 a, Point2 b);
   void markNear(uint32_t strip, uint32_t first, uint32_t end, Point2 a, Point2 b);
+  void mark(const Mark& mark);
   void findRuns();
   void findBorder();
   void findIslands();
-  uint32_t stripOf(double u) const;
-  uint32_t rowOf(double v) const;
+  static uint32_t intervalNear(ArrayView<const double> at, double x, uint32_t near);
   uint32_t name(uint32_t i, uint32_t j) const { return i * uint32_t(vs_.size()) + j; }
 
   ArrayView<const double> us_, vs_;
-  std::vector<Mark> marks_;
+  // [cells] How near to a strip or a row a segment has to come to count as within; [lines] the reciprocals of distances
+  // to the nearer line beside each.
+  std::vector<double> marginU_, marginV_, perU_, perV_;
+  uint32_t nearStrip_ = 0, nearRow_ = 0;  // of the last segment
+  std::vector<Mark> marks_, sorted_;
+  std::vector<uint32_t> firsts_;
   std::vector<Crossing> crossings_;
   std::vector<uint32_t> dirtyStarts_;  // [strips+1]
   std::vector<CellRun> dirty_;

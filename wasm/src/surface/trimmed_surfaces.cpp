@@ -144,7 +144,7 @@ std::unique_ptr<TrimmedSurfaces> TrimmedSurfaces::open(Model&& model, Work& work
   s.longest_.assign(edges, Sampling::kNoLimit);
   s.vertexAt_.resize(m.vertices);
   s.densities_.resize(faces), s.lines_.resize(faces), s.meshes_.resize(faces);
-  s.chosen_.resize(faces), s.chosenFor_.assign(faces, 0), s.tolerances_.assign(faces, 0);
+  s.chosen_.resize(faces), s.chosenFor_.resize(faces), s.allowances_.resize(faces);
   s.isChanged_.assign(faces, 0), s.isEdited_.assign(faces, 0);
   for (const ModelFace& face : m.faces) s.isReversed_.push_back(face.isReversed);
   s.mesher_ = std::make_unique<FaceMesher>(m);
@@ -229,18 +229,15 @@ void TrimmedSurfaces::chooseAll(const Sampling& sampling, const Fineness& finene
       continue;
     }
     Density& density = densities_[f];
-    const Vec3 center = 0.5 * (density.least + density.greatest);
-    const double tolerance =
-        fineness.tolerance(center, 0.55 * distance(density.least, density.greatest));
+    Allowance allowance = density.allowanceOf(*model_.faces[f].surface, fineness);
     // While a camera moves, lines are chosen for a little less than is allowed, and stay for as long as they are then not
     // much too many.
     const bool isLazy = updates && sampling.camera != nullptr;
     const double factor = sampling.hysteresis * sampling.hysteresis;
-    const bool stays = isLazy && chosenFor_[f] <= tolerance &&
-                       chosenFor_[f] >= factor * tolerance && meshes_[f].deviation <= tolerance;
+    const bool stays = isLazy && chosenFor_[f].isWithin(allowance, factor) &&
+                       meshes_[f].excess <= 1 && !isEdited_[f];
     if (!stays) {
-      const double target =
-          isLazy && tolerance < Sampling::kNoLimit ? sampling.hysteresis * tolerance : tolerance;
+      const Allowance target = isLazy ? allowance.times(sampling.hysteresis) : allowance;
       Density::Lines lines;
       density.choose(target, fineness, lines);
       const bool isSame =
@@ -248,10 +245,10 @@ void TrimmedSurfaces::chooseAll(const Sampling& sampling, const Fineness& finene
       if (!isSame) {
         chosen_[f] = lines, lines_[f] = lines;
         isChanged_[f] = 1;
-      } else if (meshes_[f].deviation > tolerance || isEdited_[f]) {
+      } else if (meshes_[f].deviation > allowance.least() || isEdited_[f]) {
         isChanged_[f] = 1;
       }
-      chosenFor_[f] = target, tolerances_[f] = tolerance;
+      chosenFor_[f] = target, allowances_[f] = std::move(allowance);
     }
     if (sampling.aspect == Sampling::kNoLimit) continue;
     const double longest = density.longest(chosen_[f]);
@@ -284,7 +281,7 @@ bool TrimmedSurfaces::meshFaces(const Sampling& sampling, bool updates, Work& wo
   std::vector<uint32_t> touched;
   while (!open.empty()) {
     const uint32_t f = open.back();
-    const FaceProblem problem = mesher_->run(f, samples_, densities_[f], lines_[f], tolerances_[f],
+    const FaceProblem problem = mesher_->run(f, samples_, densities_[f], lines_[f], allowances_[f],
                                              updates, work, meshes_[f]);
     if (problem.kind == FaceProblem::Kind::Ended) return false;
     if (problem.kind == FaceProblem::Kind::None) {
@@ -362,6 +359,8 @@ void TrimmedSurfaces::findSame(Tessellation& result) const {
       const uint32_t k = usesOf_[i] - model_.loops[model_.faces[use.face].firstLoop].firstUse;
       for (uint32_t v = mesh.useStarts[k]; v < mesh.useStarts[k + 1]; ++v)
         result.edges.push_back(bases[use.face] + mesh.useVertices[v]);
+      if (use.isReversed)
+        std::reverse(result.edges.begin() + result.edgeStarts.back(), result.edges.end());
       break;
     }
     result.edgeStarts.push_back(uint32_t(result.edges.size()));
@@ -379,11 +378,17 @@ bool TrimmedSurfaces::fewEnough(const Sampling& given, const TessellationLimits&
     return double(corners) / 3;
   };
   bool isDone = meshFaces(used, updates, work);
+  // Longer cells before a coarser tolerance.
+  for (int k = 0; isDone && triangles() > limits.maxTriangles && used.aspect < Sampling::kNoLimit;
+       ++k) {
+    used.aspect = k < 2 ? 4 * used.aspect : Sampling::kNoLimit;
+    isDone = meshFaces(used, false, work);
+  }
   // Errors fall with the square of lengths, so about with the number of triangles.
   for (int k = 0; isDone && triangles() > limits.maxTriangles && k < 40; ++k) {
     factor *= std::max(1.15, triangles() / limits.maxTriangles);
     used.tolerance = given.tolerance * factor, used.pixels = given.pixels * factor;
-    used.angle = given.angle * factor, used.aspect = given.aspect * std::sqrt(factor);
+    used.angle = given.angle * factor;
     isDone = meshFaces(used, false, work);
   }
   return isDone;
@@ -405,7 +410,7 @@ void TrimmedSurfaces::tell(const Sampling& sampling, double factor, bool isOver,
   if (factor > 1)
     result.reports.push_back({SurfaceReport::ToleranceRaised, kNone, kNone, sampling.tolerance});
   for (uint32_t f = 0; f < meshes_.size(); ++f)
-    if (meshes_[f].deviation > tolerances_[f])
+    if (meshes_[f].excess > 1)
       result.reports.push_back({SurfaceReport::AboveTolerance, f, kNone, meshes_[f].deviation});
   if (isOver) result.reports.push_back({SurfaceReport::TimeOver, kNone, kNone, 0});
 }
@@ -469,6 +474,7 @@ bool TrimmedSurfaces::isAlone(uint32_t edge, uint32_t face) const {
 void TrimmedSurfaces::replant(uint32_t face, ArrayView<const uint32_t> edges) {
   for (const uint32_t e : edges) {
     plantTree(e);
+    for (uint32_t i = firstUses_[e]; i < firstUses_[e + 1]; ++i) mesher_->forget(usesOf_[i]);
     for (const int end : {0, 1})
       vertexAt_[end == 0 ? model_.edges[e].fromVertex : model_.edges[e].toVertex] =
           trees_[e]->end(end);

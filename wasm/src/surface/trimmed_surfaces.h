@@ -95,10 +95,10 @@ class TrimmedSurfaces {
   EdgeSamples samples_;
   std::vector<EdgeSample> samplesBefore_;
   std::vector<Density> densities_;
-  // Of each face: the lines it has; those that were chosen before any were added where it was measured to be off; the tolerance
-  // that they were chosen for, and the one that is allowed now.
+  // Of each face: the lines it has; those that were chosen before any were added where it was measured to be off; what they
+  // were chosen for, and what is allowed now.
   std::vector<Density::Lines> lines_, chosen_;
-  std::vector<double> chosenFor_, tolerances_;
+  std::vector<Allowance> chosenFor_, allowances_;
   std::vector<FaceMesh> meshes_;
   std::vector<uint8_t> isReversed_, isChanged_;  // [faces]
   std::unique_ptr<FaceMesher> mesher_;

@@ -106,7 +106,6 @@ class PolygonSession {
   void updateSlots();
   void writeSlot(uint32_t slot);
   void joinStrips();
-  bool onOnePath(uint32_t h) const;
 
   ConstrainedMesh mesh_;
   uint32_t near_ = 0;           // a vertex of the triangles near the last edit
@@ -118,7 +117,7 @@ class PolygonSession {
   std::vector<uint32_t> slots_;       // of each triangle: its number in triangles_, or kNone
   std::vector<uint32_t> triangleIn_;  // the reverse
   std::vector<uint32_t> triangles_, changedSlots_;
-  std::vector<uint32_t> stack_;
+  std::vector<uint32_t> stack_, among_;
 };
 
 }  // namespace sf

@@ -10,8 +10,6 @@ namespace {
 // Flips after an edit: more than this are needed only where the triangles were bad before.
 constexpr uint32_t kFlips = 1000;
 constexpr uint8_t kUnknown = 2;
-// Strips longer than twice this are not joined: not worth walking along.
-constexpr int kLongestStrip = 200;
 
 }  // namespace
 
@@ -192,36 +190,14 @@ void PolygonSession::updateSlots() {
     changedSlots_.pop_back();
 }
 
-/// Whether the strips that end in the triangles on both sides of h are one.
-bool PolygonSession::onOnePath(uint32_t h) const {
-  const std::vector<uint32_t>& twins = mesh_.mesh.twins;
-  const uint32_t ends[2] = {h / 3, twins[h] / 3};
-  uint32_t out[2] = {mesh_.links.only(ends[0]), mesh_.links.only(ends[1])};
-  uint32_t at[2] = {ends[0], ends[1]};
-  for (int step = 0; step < kLongestStrip; ++step)
-    for (int i = 0; i < 2; ++i) {
-      if (out[i] == kNone) return at[i] == ends[1 - i];
-      at[i] = twins[out[i]] / 3;
-      out[i] = mesh_.links.exit(twins[out[i]]);
-    }
-  return true;  // perhaps not; but then both are long
-}
-
 void PolygonSession::joinStrips() {
-  const TriangleMesh& mesh = mesh_.mesh;
-  StripLinks& links = mesh_.links;
-  links.bits.resize(mesh.triangleCount(), 0);
-  for (uint32_t allowed = 0; allowed < 2; ++allowed)
-    for (const uint32_t t : mesh_.changed) {
-      if (inside_[t] == 0) continue;
-      for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-        const uint32_t g = mesh.twins[h];
-        if (g == kNone || inside_[g / 3] == 0 || links.linked(h) || mesh_.isFixed(h)) continue;
-        if (links.count(t) > 1 || links.count(g / 3) > 1) continue;
-        if (links.swapsToJoin(mesh.twins, h) > allowed || onOnePath(h)) continue;
-        links.link(h, g);
-      }
-    }
+  mesh_.links.bits.resize(mesh_.mesh.triangleCount(), 0);
+  among_.clear();
+  for (const uint32_t t : mesh_.changed)
+    if (inside_[t] != 0) among_.push_back(t);
+  sf::joinStrips(mesh_.mesh.twins, among_, mesh_.links, [&](uint32_t h) {
+    return inside_[mesh_.mesh.twins[h] / 3] != 0 && !mesh_.isFixed(h);
+  });
 }
 
 bool PolygonSession::strips(Work& work, std::vector<uint32_t>& vertices,

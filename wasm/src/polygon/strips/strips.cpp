@@ -6,6 +6,9 @@
 namespace sf {
 namespace {
 
+// Strips longer than twice this are not joined: not worth walking along.
+constexpr int kLongestStrip = 200;
+
 class StripFinder {
  public:
   StripFinder(ArrayView<const uint32_t> twins, Work& work, StripLinks& links)
@@ -121,6 +124,19 @@ void writeStrip(ArrayView<const uint32_t> corners, ArrayView<const uint32_t> twi
 }
 
 }  // namespace
+
+bool StripLinks::onOnePath(ArrayView<const uint32_t> twins, uint32_t h) const {
+  const uint32_t ends[2] = {h / 3, twins[h] / 3};
+  uint32_t out[2] = {only(ends[0]), only(ends[1])};
+  uint32_t at[2] = {ends[0], ends[1]};
+  for (int step = 0; step < kLongestStrip; ++step)
+    for (int i = 0; i < 2; ++i) {
+      if (out[i] == kNone) return at[i] == ends[1 - i];
+      at[i] = twins[out[i]] / 3;
+      out[i] = exit(twins[out[i]]);
+    }
+  return true;  // perhaps not; but then both are long
+}
 
 uint32_t StripLinks::swapsToJoin(ArrayView<const uint32_t> twins, uint32_t h) const {
   // The turn in the triangle of an end when its strip goes on across its half-edge, and the turn

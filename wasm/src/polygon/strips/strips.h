@@ -47,9 +47,28 @@ class StripLinks {
     if (linked(nextInTriangle(h))) return nextInTriangle(h);
     return linked(prevInTriangle(h)) ? prevInTriangle(h) : kNone;
   }
+  /// Whether the strips that end in the triangles on both sides of h are one, or both are very long.
+  bool onOnePath(ArrayView<const uint32_t> twins, uint32_t h) const;
   /// How many more swaps two strips need if they are joined across h, between their ends.
   uint32_t swapsToJoin(ArrayView<const uint32_t> twins, uint32_t h) const;
 };
+
+/// Joins strips that end in some triangles to those across their edges, as long as that saves indices: after a change, when
+/// these triangles' strips were cut. O(1) time a triangle, but for walks along strips of some length.
+///   mayCross  whether an edge may be crossed: a half-edge that has a twin
+template <class F>
+void joinStrips(ArrayView<const uint32_t> twins, ArrayView<const uint32_t> among, StripLinks& links,
+                F&& mayCross) {
+  for (uint32_t allowed = 0; allowed < 2; ++allowed)
+    for (const uint32_t t : among)
+      for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        const uint32_t g = twins[h];
+        if (g == kNone || links.linked(h) || !mayCross(h)) continue;
+        if (links.count(t) > 1 || links.count(g / 3) > 1) continue;
+        if (links.swapsToJoin(twins, h) > allowed || links.onOnePath(twins, h)) continue;
+        links.link(h, g);
+      }
+}
 
 /// Finds strips with few indices. False when the work ended.
 ///   twins  [3m] as findTwins gives them
