@@ -51,7 +51,7 @@ class ModelBuilder {
   struct Use {
     uint32_t edge;
     bool isReversed;
-    TestSpline curve;
+    TestSpline curve;  // or none: no knots
     bool isSeam = false;
   };
 
@@ -75,8 +75,10 @@ class ModelBuilder {
       faceShape_.push_back(uint32_t(loop.size()));
       for (const Use& use : loop) {
         faceShape_.insert(faceShape_.end(),
-                          {use.edge, (use.isReversed ? 1u : 0u) | (use.isSeam ? 2u : 0u) | 4u});
+                          {use.edge, (use.isReversed ? 1u : 0u) | (use.isSeam ? 2u : 0u) |
+                                         (use.curve.knots.empty() ? 0u : 4u)});
         const TestSpline& c = use.curve;
+        if (c.knots.empty()) continue;
         faceShape_.insert(faceShape_.end(), {c.degree, c.count(), uint32_t(c.knots.size()),
                                              c.weights.empty() ? 0u : 1u});
         faceNumbers_.insert(faceNumbers_.end(), {c.knots[c.degree], c.knots[c.count()]});

@@ -14,6 +14,8 @@ constexpr double kShortest = 1e-10;
 constexpr double kOvershoot = 0.05;
 /// Halving an interval of the whole edge this often makes it too short.
 constexpr uint32_t kMostLevels = 40;
+/// From this many samples on an edge gets no more: only nonsense has such.
+constexpr size_t kMostSamples = 1 << 18;
 /// Into how many pieces an interval is cut to be measured, if its curve is a single polynomial there.
 constexpr uint32_t kPieces = 4, kMostPieces = 64;
 
@@ -140,7 +142,8 @@ void EdgeTree::select(const Fineness& fineness, double longest, std::vector<Edge
       const Open o = open[--waiting];
       Node* node = &nodes_[o.node];
       bool isHalved = false;
-      if (!e.isDegenerate && node->b - node->a > 2 * least && waiting + 2 < kMostLevels) {
+      if (!e.isDegenerate && node->b - node->a > 2 * least && waiting + 2 < kMostLevels &&
+          samples.size() < kMostSamples) {
         const double allowed = node->isHalved ? fineness.hysteresis() : 1;
         const double tolerance =
             fineness.tolerance(node->middle, 0.5 * node->chord + node->error) * allowed;

@@ -12,6 +12,8 @@ constexpr double kAlong = 1e-7;
 constexpr double kClosed = 1e-4;
 /// A parameter this near to the border of the domain, in its size, lies on it.
 constexpr double kBorder = 1e-9;
+/// How far the way found may leave the domain, in its size.
+constexpr double kOutside = 1e-7;
 /// Most points of the grid.
 constexpr double kMostGrid = 40000;
 /// How many points of the grid are tried as a start.
@@ -21,6 +23,12 @@ constexpr int kMostSteps = 30;
 /// Most halvings of a step along the way, and of a piece; and most pieces.
 constexpr int kMostLevels = 24;
 constexpr size_t kMostPieces = 20000;
+/// A piece that is still off after so many halvings crosses a crease of the surface, or its curve is not smooth: from there
+/// on each one may be off this much more, up to that share of what the edge allows.
+constexpr int kUsualLevels = 8;
+constexpr double kRelaxation = 4, kMostAlong = 0.1;
+/// A break of the curve this near to its ends, in its range, is none.
+constexpr double kShortest = 1e-9;
 /// A step is short enough if half of it leads this near to the curve, in its chord.
 constexpr double kDetour = 0.25;
 /// Where the derivatives are so nearly parallel, or one so short, there is but one direction.
@@ -314,20 +322,27 @@ void Inversion::arrive(const Sample& inside, Sample& end) const {
     end.at.y = inside.at.y + h * slope.y, atEnd.y = slope.y;
 }
 
-bool Inversion::fits(const Trace& trace, Sample& a, Sample& b) const {
+/// Whether a cubic between two samples follows the curve.
+bool Inversion::fits(const Trace& trace, Sample& a, Sample& b, int levels) const {
   if (a.apex && b.apex) return false;
   if (a.apex) arrive(b, a);
   if (b.apex) arrive(a, b);
-  const double h = b.t - a.t, allowed = kAlong * diagonal_;
+  const double usual = kAlong * diagonal_, most = std::max(usual, kMostAlong * trace.slack);
+  const double allowed =
+      std::min(most, usual * std::pow(kRelaxation, std::max(0, levels - kUsualLevels)));
+  const double h = b.t - a.t;
   const Point2 p1 = a.at + (h / 3) * a.after, p2 = b.at - (h / 3) * b.before;
   for (int i = 1; i < 6; ++i) {
     const double x = i / 6.0, y = 1 - x;
     const Vec3 target = trace.curve.placeAt(a.t + x * h);
     const Point2 p =
         y * y * y * a.at + 3 * x * y * y * p1 + (3 * x * x * y * p2 + x * x * x * b.at);
-    const TangentPoint s = tangentsAt(p);
-    const Vec3 way = target - s.at;
-    const Point2 d = step(s, clamp(p), way);
+    const Point2 within = clamp(p);
+    if (std::fabs(p.x - within.x) > kOutside * size().x ||
+        std::fabs(p.y - within.y) > kOutside * size().y)
+      return false;
+    const TangentPoint s = tangentsAt(within);
+    const Point2 d = step(s, within, target - s.at);
     const bool isAtApex = (a.apex && distance(a.apex->at, target) <= 2 * trace.apexRadius()) ||
                           (b.apex && distance(b.apex->at, target) <= 2 * trace.apexRadius());
     const double along = length(d.x * s.u + d.y * s.v);
@@ -344,7 +359,7 @@ bool Inversion::refine(Trace& trace, Sample a, Sample b, int levels) const {
   const double middle = 0.5 * (a.t + b.t);
   const bool isLast =
       levels >= kMostLevels || found.breaks.size() > kMostPieces || !(a.t < middle && middle < b.t);
-  if (fits(trace, a, b) || isLast) {
+  if (fits(trace, a, b, levels) || isLast) {
     const double h = (b.t - a.t) / 3;
     if (found.breaks.empty()) found.breaks.push_back(a.t), found.points.push_back(a.at);
     found.breaks.push_back(b.t);
@@ -365,7 +380,7 @@ bool Inversion::find(const NurbsCurve& curve, double from, double to, double sla
   // The curve's own breaks, and on the way there at least a few stops.
   std::vector<double> breaks{from};
   for (const double t : curve.spans().breaks())
-    if (t > from && t < to) breaks.push_back(t);
+    if (t - from > kShortest * (to - from) && to - t > kShortest * (to - from)) breaks.push_back(t);
   breaks.push_back(to);
   const uint32_t stops = breaks.size() < 100 ? 8 : 2;
   std::vector<double> at;

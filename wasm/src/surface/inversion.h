@@ -68,7 +68,7 @@ class Inversion {
   bool walk(Trace& trace, double t, Point2& at, double to) const;
   Sample sampleAt(const Trace& trace, double t, Point2 at) const;
   void arrive(const Sample& inside, Sample& end) const;
-  bool fits(const Trace& trace, Sample& a, Sample& b) const;
+  bool fits(const Trace& trace, Sample& a, Sample& b, int levels) const;
   bool refine(Trace& trace, Sample a, Sample b, int levels) const;
 
   const NurbsSurface& surface_;

@@ -12,6 +12,8 @@ namespace {
 constexpr double kLargestGap = 0.05;
 /// A curve that leaves the domain by less, in its size, is drawn in if that is within tolerance.
 constexpr double kOverhang = 0.02;
+/// A curve that stays this near to the border, in the domain's size, runs along it.
+constexpr double kBorder = 1e-6;
 /// Most choices that are tried for one loop.
 constexpr uint32_t kMostChoices = 20000;
 /// Bytes of a piece of a curve, with the factors that it is made by.
@@ -20,6 +22,27 @@ constexpr uint64_t kPieceBytes = 400;
 Point2 operator+(Point2 a, Point2 b) { return {a.x + b.x, a.y + b.y}; }
 Point2 operator-(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
 Point2 operator*(double s, Point2 a) { return {s * a.x, s * a.y}; }
+
+/// Brings a joint that is outside, in one coordinate, to the border. From there the curve cannot lead out: the points beside
+/// the joint go no further. Those of other joints may well lie outside while the curve does not.
+void keepWithin(std::vector<Point2>& points, size_t joint, double low, double high,
+                double Point2::*coordinate) {
+  double& at = points[joint].*coordinate;
+  if (at > low && at < high) return;
+  at = std::clamp(at, low, high);
+  const size_t first = joint - (joint > 0), last = std::min(joint + 1, points.size() - 1);
+  double off = 0;
+  bool leadsOut = false;
+  for (const size_t i : {first, last}) {
+    double& x = points[i].*coordinate;
+    leadsOut |= x < low || x > high;
+    x = std::clamp(x, low, high);
+    off = std::max(off, std::fabs(x - at));
+  }
+  // Along the border there is no corner.
+  if (leadsOut && off <= kBorder * (high - low))
+    points[first].*coordinate = points[last].*coordinate = at;
+}
 
 /// A use of a loop, and where its curve can lie.
 struct Placed {
@@ -214,14 +237,9 @@ void LoopFiller::choose() {
     const bool isWithin = liesWithin(p, shift);
     for (Point2& at : points) at = at + shift;
     if (!isWithin) continue;
-    // Joints outside go to the border, and the points beside them no further. Elsewhere these may well lie outside.
     for (size_t k = 0; k < points.size(); k += 3) {
-      const Point2 at = points[k];
-      const bool isOutU = at.x < low.x || at.x > high.x, isOutV = at.y < low.y || at.y > high.y;
-      for (size_t j = k - (k > 0); j <= k + 1 && j < points.size(); ++j) {
-        if (isOutU) points[j].x = std::clamp(points[j].x, low.x, high.x);
-        if (isOutV) points[j].y = std::clamp(points[j].y, low.y, high.y);
-      }
+      keepWithin(points, k, low.x, high.x, &Point2::x);
+      keepWithin(points, k, low.y, high.y, &Point2::y);
     }
   }
 }

@@ -11,6 +11,8 @@ namespace {
 
 /// How far a trimming curve may leave the domain, or the next one may begin, in the domain's size.
 constexpr double kDomainSlack = 1e-6;
+/// A face with a curve that leaves the domain by more than that is not looked at any further.
+constexpr double kFarOutside = 0.5;
 /// How far curves may be apart beyond what their edge tells, in the model's diagonal.
 constexpr double kSpaceSlack = 1e-5;
 /// Consecutive curves may be this much of the domain apart if they meet in space.
@@ -344,7 +346,12 @@ bool ModelReader::checkUse(uint32_t number) {
   ModelUse& use = m_.uses[number];
   if (!use.curve.isFound()) return failUse(SurfaceFault::EdgeApart, number), false;
   const ModelEdge& edge = m_.edges[use.edge];
-  if (!staysInDomain(m_, number)) return failUse(SurfaceFault::TrimOutside, number), false;
+  if (!staysInDomain(m_, number, kDomainSlack)) {
+    failUse(SurfaceFault::TrimOutside, number);
+    // So far out the surface is of no use to say more.
+    if (!staysInDomain(m_, number, kFarOutside)) m_.faces[use.face].isLeftOut = true;
+    return false;
+  }
   const BezierSpans &u = m_.faces[use.face].surface->u(), &v = m_.faces[use.face].surface->v();
   const double slack = edge.tolerance + kSpaceSlack * m_.diagonal();
   const Vec3 first = onSurface(use, use.curve.at(edge.from));
@@ -442,13 +449,13 @@ void ModelReader::unite() {
 
 }  // namespace
 
-bool staysInDomain(const Model& model, uint32_t number) {
+bool staysInDomain(const Model& model, uint32_t number, double share) {
   const ModelUse& use = model.uses[number];
   const ModelEdge& edge = model.edges[use.edge];
   const NurbsSurface& surface = *model.faces[use.face].surface;
-  const auto isWithin = [](const BezierSpans& spans, double x) {
+  const auto isWithin = [&](const BezierSpans& spans, double x) {
     const double from = spans.breaks()[0], to = spans.breaks()[spans.count()];
-    const double slack = kDomainSlack * (to - from);
+    const double slack = share * (to - from);
     return x >= from - slack && x <= to + slack;
   };
   const uint32_t pieces = piecesOf(use);

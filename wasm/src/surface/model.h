@@ -113,8 +113,8 @@ struct Model {
   }
 };
 
-/// Whether a use's curve stays in the domain of its face, nearly.
-bool staysInDomain(const Model& model, uint32_t use);
+/// Whether a use's curve stays in the domain of its face, or leaves it by no more than this share of its size.
+bool staysInDomain(const Model& model, uint32_t use, double share = 1e-6);
 
 /// Reads a model. Faces with faults are left out, and named. A face without loops gets one around its domain, whose edges
 /// are new ones after those given; they are shared where the surface closes, and degenerate where it has a pole.
