@@ -845,7 +845,8 @@ FaceProblem FaceMesher::State::refineBand() {
   const auto at = [&](uint32_t v) -> Vec3 { return mesh->positions[v]; };
   known = band.corners;  // corners of the triangles whose deviation is known
   for (size_t t = 0; t < bandOff.size(); ++t)
-    if (bandOff[t] > allowance.least() && bandOff[t] > allowedIn(t)) known[3 * t] = kNone;
+    if (isFresh[t] || (bandOff[t] > allowance.least() && bandOff[t] > allowedIn(t)))
+      known[3 * t] = kNone;
   const size_t mostVertices = 64 + 4 * bandAt.size();
   struct Spot {
     uint32_t half;  // of the triangle, or of the edge
