@@ -3,5 +3,6 @@ import type { Mode } from '../app/mode.ts';
 import { film } from './film/mode.ts';
 import { mesh } from './mesh/mode.ts';
 import { polygon } from './polygon/mode.ts';
+import { surface } from './surface/mode.ts';
 
-export const kModes: readonly Mode[] = [film, polygon, mesh];
+export const kModes: readonly Mode[] = [film, polygon, mesh, surface];

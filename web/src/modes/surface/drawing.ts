@@ -1,0 +1,90 @@
+// What the mode draws besides handles: the mesh and the edges of the model; and the picture that the mesh is for.
+import { signal } from '@preact/signals';
+import { Matrix4, Vector3 } from 'three';
+import type { Change } from 'soapfilm/surfaces';
+import { FatLines } from '../../scene/fat_line.ts';
+import type { ModeScene } from '../../scene/mode_scene.ts';
+import type { Placement } from '../../scene/placement.ts';
+import type { Stage } from '../../scene/stage.ts';
+import { mode, shown } from '../../state/store.ts';
+import { coloring, view } from './looks.ts';
+import { frozen, meshed, picture, settings } from './meshing.ts';
+import { kMode } from './settings.ts';
+import { SurfaceMesh } from './surface_mesh.ts';
+
+/** In CSS pixels. */
+const kEdge = 1.6;
+/** A moving camera asks for a mesh so often. */
+const kPictureMs = 100;
+
+/** Bytes sent to the graphics card for the last mesh. */
+export const uploaded = signal(0);
+
+/** Draws from now on whatever there is. */
+export function drawSurfaces(stage: Stage, scene: ModeScene): void {
+  const { theme } = stage;
+  const { root, placement, viewpoint } = scene;
+  const surface = new SurfaceMesh();
+  const edges = new FatLines();
+  root.add(surface.object, edges.object);
+  stage.view.follow(() => {
+    const { surface: colors } = theme.value;
+    const look = {
+      front: colors.front,
+      back: colors.back,
+      wire: colors.wire,
+      wires: shown.value.wires,
+      smooth: view.value.smooth,
+      coloring: coloring.value,
+    };
+    surface.update(meshed.value?.change ?? null, look);
+    uploaded.value = surface.uploaded;
+  });
+  stage.view.follow(() => {
+    const { center, unit } = placement.value;
+    const [x, y, z] = meshed.value?.change.mesh.origin ?? [0, 0, 0];
+    surface.object.position.set((x - center[0]) / unit, (y - center[1]) / unit, (z - center[2]) / unit);
+    surface.object.scale.setScalar(1 / unit);
+  });
+  stage.view.follow(() => {
+    edges.clear();
+    const now = meshed.value;
+    if (now === null || !view.value.edges) return;
+    edges.put(segmentsOf(now.change, placement.value), { color: theme.value.curves.line, width: kEdge });
+  });
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const look = (): void => {
+    if (timer !== undefined) return;
+    timer = setTimeout(() => {
+      timer = undefined;
+      if (mode.peek() !== kMode || frozen.peek()) return;
+      const { camera } = viewpoint;
+      camera.updateMatrixWorld();
+      const { center, unit } = placement.peek();
+      const toScene = new Matrix4().makeScale(1 / unit, 1 / unit, 1 / unit).multiply(new Matrix4().makeTranslation(-center[0], -center[1], -center[2]));
+      const eye = new Vector3().setFromMatrixPosition(camera.matrixWorld).applyMatrix4(toScene.clone().invert());
+      const viewProjection = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).multiply(toScene);
+      const [width, height] = stage.view.size;
+      const next = { eye: eye.toArray(), viewProjection: viewProjection.toArray(), width, height };
+      if (JSON.stringify(picture.peek()) !== JSON.stringify(next)) picture.value = next;
+    }, kPictureMs);
+  };
+  stage.view.onCamera(look);
+  stage.view.follow(() => {
+    if (settings.value.follows && !frozen.value) look();
+  });
+}
+
+/** The edges of a mesh as segments in the scene. */
+function segmentsOf({ mesh }: Change, { center, unit }: Placement): Float32Array {
+  const { edges, edgeStarts, positions, origin } = mesh;
+  const ends: number[] = [];
+  for (let e = 0; e + 1 < edgeStarts.length; e++) {
+    for (let i = edgeStarts[e]; i + 1 < edgeStarts[e + 1]; i++) {
+      for (const v of [edges[i], edges[i + 1]]) {
+        for (let axis = 0; axis < 3; axis++) ends.push((positions[3 * v + axis] + origin[axis] - center[axis]) / unit);
+      }
+    }
+  }
+  return Float32Array.from(ends);
+}
