@@ -6,6 +6,7 @@
 // npm run bench -- polygons [filter… | --figures]: triangulators of polygons, ours and others; with --figures
 // all cases, and the README's table of them anew.
 // npm run bench -- holes [words… | --figures]: holes of meshes; of those in ../shared/data/holes, if there are any.
+// npm run bench -- surfaces [words… | --figures]: trimmed surfaces; of those in ../shared/data/nurbs, if there are any.
 import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { availableParallelism, loadavg } from 'node:os';
 import path from 'node:path';
@@ -26,6 +27,7 @@ import {
 } from '../../tests/bench/report.mjs';
 import { holeTable } from '../../tests/bench/hole_report.mjs';
 import { polygonTable } from '../../tests/bench/polygon_report.mjs';
+import { surfaceTable } from '../../tests/bench/surface_report.mjs';
 import { buildLibrary, buildPreset } from './build.mjs';
 import { Failure, buildRoot, main, root, run, say } from './run.mjs';
 import { checkNode, ensureTools } from './tools.mjs';
@@ -222,18 +224,23 @@ async function measurePolygons(words) {
   say('Written: README.md');
 }
 
-async function measureHoles(words) {
+/** What is measured on the files of ../shared/data, where these are there: the folder, and the README's table of the results. */
+const kOnFiles = { holes: { data: 'holes', table: holeTable }, surfaces: { data: 'nurbs', table: surfaceTable } };
+
+async function measureOnFiles(name, words) {
+  const { data, table } = kOnFiles[name];
   await buildLibrary();
   mkdirSync(folder, { recursive: true });
-  const file = path.join(folder, 'holes.json');
+  const file = path.join(folder, `${name}.json`);
   const wanted = words.filter((word) => word !== '--figures');
   // In a clone, and in a worktree.
-  const meshes = ['../shared', '../../shared'].map((shared) => path.join(root, shared, 'data/holes')).find(existsSync);
-  await run(process.execPath, ['--stack-size=4000', path.join(bench, 'holes.bench.mjs'), meshes ?? '-', file, ...wanted]);
+  const files = ['../shared', '../../shared'].map((shared) => path.join(root, shared, 'data', data)).find(existsSync);
+  await run(process.execPath, ['--stack-size=4000', path.join(bench, `${name}.bench.mjs`), files ?? '-', file, ...wanted]);
   say(`\nWritten: ${path.relative(root, file)}`);
   if (words.length === wanted.length) return;
-  if (wanted.length > 0 || meshes === undefined) throw new Failure('The table is of all meshes of ../shared/data/holes: npm run bench -- holes --figures');
-  intoReadme('npm run bench -- holes --figures', holeTable(JSON.parse(readFileSync(file, 'utf8'))));
+  const command = `npm run bench -- ${name} --figures`;
+  if (wanted.length > 0 || files === undefined) throw new Failure(`The table is of all files of ../shared/data/${data}: ${command}`);
+  intoReadme(command, table(JSON.parse(readFileSync(file, 'utf8'))));
   say('Written: README.md');
 }
 
@@ -242,7 +249,7 @@ await main(async () => {
   await ensureTools(['emcc', 'cmake', 'ninja', 'compiler']);
   const words = process.argv.slice(2);
   if (words[0] === 'polygons') return measurePolygons(words.slice(1));
-  if (words[0] === 'holes') return measureHoles(words.slice(1));
+  if (words[0] in kOnFiles) return measureOnFiles(words[0], words.slice(1));
   const wants = (flag) => words.includes(flag);
   if (!wants('--draw')) await measure(words.filter((word) => !word.startsWith('--')), wants('--figures'));
   if (wants('--draw') || wants('--figures')) await draw();
