@@ -929,6 +929,8 @@ FaceProblem FaceMesher::State::refineBand() {
       if (spot.onEdge) {
         const Point2 s = bandAt[band.apex(band.twins[spot.half])];
         fits = fits && turns(q, to, s) && turns(to, p, s);
+        // Beside a triangle without width, as along a side of the domain, the other diagonal does without it.
+        if (!fits && turns(r, s, q) && turns(s, r, p)) band.flip(spot.half);
       } else {
         fits = fits && turns(p, q, to);
       }
