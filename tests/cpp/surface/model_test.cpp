@@ -141,6 +141,11 @@ TEST_CASE("Model: each fault is named with its place") {
   CHECK(faultOf([](Plate& p) {
           p.flat[2] = {}, p.hasSpace[2] = false;
         }).has(SurfaceFault::BadEdge, 0, 2));
+  CHECK(faultOf([](Plate& p) { p.flat[4].weights[3] = 1e12; }).has(SurfaceFault::BadWeights, 1, 0));
+  // An edge without a curve, used twice: the two lie elsewhere.
+  CHECK(faultOf([](Plate& p) {
+          p.hasSpace[0] = false, p.edgeOfHole = 0, p.flat[4] = segment({-0.5, 0}, {0.5, 0});
+        }).has(SurfaceFault::EdgeApart, 1, 0));
   // Of loops.
   CHECK(faultOf([](Plate& p) {
           p.hasSpace[4] = false, p.flat[4] = circle({0.8, 0}, 0.5, true);
@@ -203,11 +208,11 @@ TEST_CASE("Model: random lies in its arrays end in a fault or a mesh") {
     const uint32_t lies = 1 + random() % 3;
     for (uint32_t k = 0; k < lies; ++k) {
       const uint32_t bigs[] = {0, 1, 2, 3, 25, 26, 1u << 16, 0x7fffffffu, 0xffffffffu};
-      const double odd[] = {0, 1, -1, 1e-300, 1e300, kNaN, INFINITY, 0.5, 4, 1e15};
+      const double odd[] = {0, 1, -1, 1e-300, 1e300, kNaN, INFINITY, 0.5, 4, 1e15, 1e8, 1e-8};
       if (random() % 2 == 0)
         shape[random() % shape.size()] = bigs[random() % 9];
       else
-        numbers[random() % numbers.size()] = odd[random() % 10];
+        numbers[random() % numbers.size()] = odd[random() % 12];
     }
     Read spoilt(shape, numbers);
     if (!spoilt.isRead) continue;

@@ -13,6 +13,8 @@ namespace {
 constexpr double kDomainSlack = 1e-6;
 /// A face with a curve that leaves the domain by more than that is not looked at any further.
 constexpr double kFarOutside = 0.5;
+/// Weights may differ by this factor. Beyond it, what has the smaller ones is lost to rounding.
+constexpr double kLargestRatio = 1e9;
 /// How far curves may be apart beyond what their edge tells, in the model's diagonal.
 constexpr double kSpaceSlack = 1e-5;
 /// Consecutive curves may be this much of the domain apart if they meet in space.
@@ -80,14 +82,11 @@ bool findFault(const KnotVector& knots, uint64_t poles, SurfaceFault& fault) {
 bool findFault(ArrayView<const double> poles, ArrayView<const double> weights,
                SurfaceFault& fault) {
   fault = SurfaceFault::NotFinite;
-  if (!areAccepted(poles)) return true;
-  for (const double w : weights) {
-    if (!isAcceptedNumber(w)) return true;
-    if (w > 0) continue;
-    fault = SurfaceFault::BadWeights;
-    return true;
-  }
-  return false;
+  if (!areAccepted(poles) || !areAccepted(weights)) return true;
+  if (weights.empty()) return false;
+  fault = SurfaceFault::BadWeights;
+  const auto [least, most] = std::minmax_element(weights.begin(), weights.end());
+  return !(*least > 0) || !(*most <= kLargestRatio * *least);
 }
 bool findFault(const CurveArrays& c, SurfaceFault& fault) {
   return findFault({c.degree, c.knots}, c.poles, fault) || findFault(c.at, c.weights, fault);
@@ -354,18 +353,21 @@ bool ModelReader::checkUse(uint32_t number) {
   }
   const BezierSpans &u = m_.faces[use.face].surface->u(), &v = m_.faces[use.face].surface->v();
   const double slack = edge.tolerance + kSpaceSlack * m_.diagonal();
+  // What is compared with: the edge's curve, or its only point, or the use that stands for it.
+  const ModelUse* other = edge.firstUse == number ? nullptr : &m_.uses[edge.firstUse];
+  const bool isBare = !edge.curve && !edge.isDegenerate;
+  if (isBare && other && other->face != use.face)
+    return failUse(SurfaceFault::BadEdge, number), false;
   const Vec3 first = onSurface(use, use.curve.at(edge.from));
-  const uint32_t pieces = edge.curve || edge.isDegenerate ? piecesOf(use) : 0;
+  const uint32_t pieces = isBare && !other ? 0 : piecesOf(use);
   for (uint32_t i = 0; i <= pieces && pieces > 0; ++i) {
     const double t = edge.from + (edge.to - edge.from) * i / pieces;
-    const Point2 p = use.curve.at(t);
-    const Vec3 other = edge.isDegenerate ? first : edge.curve->placeAt(t);
-    if (!(distance(onSurface(use, p), other) <= slack))
+    const Vec3 at = edge.isDegenerate ? first
+                    : edge.curve      ? edge.curve->placeAt(t)
+                                      : onSurface(*other, other->curve.at(t));
+    if (!(distance(onSurface(use, use.curve.at(t)), at) <= slack))
       return failUse(SurfaceFault::EdgeApart, number), false;
   }
-  if (!edge.curve && !edge.isDegenerate && edge.firstUse != number &&
-      m_.uses[edge.firstUse].face != use.face)
-    return failUse(SurfaceFault::BadEdge, number), false;
   const uint32_t next = m_.after(number);
   const ModelUse& after = m_.uses[next];
   if (!after.curve.isFound()) return failUse(SurfaceFault::EdgeApart, next), false;
