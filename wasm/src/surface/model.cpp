@@ -334,10 +334,12 @@ void ModelReader::addLoops() {
 
 /// Where curves of space have none in the domain.
 void ModelReader::findCurves(Charge& charge) {
-  for (uint32_t f = 0; f < m_.faces.size(); ++f)
-    if (!m_.faces[f].isLeftOut &&
-        !findMissingCurves(m_, f, kSpaceSlack * m_.diagonal(), work_, charge))
-      return;
+  for (uint32_t f = 0; f < m_.faces.size(); ++f) {
+    if (m_.faces[f].isLeftOut) continue;
+    uint32_t lost;
+    if (!findMissingCurves(m_, f, kSpaceSlack * m_.diagonal(), work_, charge, lost)) return;
+    if (lost != kNone) failUse(SurfaceFault::EdgeApart, lost);
+  }
 }
 
 /// Whether a use's curve stays in the domain, with its edge, and ends where the next one begins.
