@@ -21,10 +21,24 @@ constexpr double kSpaceSlack = 1e-5;
 constexpr double kLargestGap = 0.05;
 /// Points within this share of the diagonal are one.
 constexpr double kSamePoint = 1e-9;
+/// And what rounding may make of one, in its coordinates.
+constexpr double kRounding = 1e-14;
+/// In how many places of each span curves are looked at, but at its end.
+constexpr uint32_t kLooks = 4, kMostLooks = 64;
+/// Nanoseconds of one look, nearly.
+constexpr uint64_t kLookCost = 400;
+
+/// Places farther out do not fit into 32 bits, in which meshes have them; nor do those of smaller models.
+constexpr double kFarthest = 1e37, kLeastDiagonal = 1e-35;
 
 bool isAcceptedNumber(double x) { return std::fabs(x) <= kLargestCoordinate; }
 bool areAccepted(ArrayView<const double> numbers) {
   return std::all_of(numbers.begin(), numbers.end(), isAcceptedNumber);
+}
+
+bool areInReach(ArrayView<const double> places) {
+  return std::all_of(places.begin(), places.end(),
+                     [](double x) { return std::fabs(x) <= kFarthest; });
 }
 
 /// Reads both arrays from front to back. After a read that does not fit, `fits` is false, and all that follows is empty.
@@ -92,21 +106,36 @@ bool findFault(const CurveArrays& c, SurfaceFault& fault) {
   return findFault({c.degree, c.knots}, c.poles, fault) || findFault(c.at, c.weights, fault);
 }
 
-/// Into how many pieces a use's curve is cut to be looked at.
-uint32_t piecesOf(const ModelUse& use) {
-  return std::min(4 * (use.curve.curve().spans().count() + 1), 4000u);
+std::vector<double> copyOf(ArrayView<const double> a) { return {a.begin(), a.end()}; }
+
+/// Makes room for one more in a list that grows; false beyond the limit of memory.
+template <class T>
+bool grow(std::vector<T>& list, Charge& charge) {
+  return list.size() < list.capacity() ||
+         reserve(list, std::max<size_t>(16, 2 * list.size()), charge);
+}
+
+/// The box of a face's domain, larger by a share of its size.
+void domainOf(const ModelFace& face, double share, Vec3& low, Vec3& high) {
+  const ArrayView<const double> u = face.surface->u().breaks(), v = face.surface->v().breaks();
+  low = {u[0], v[0], -1}, high = {u[u.size() - 1], v[v.size() - 1], 1};
+  const Vec3 slack = share * (high - low);
+  low = low - slack, high = high + slack;
 }
 
 /// The model under way, and what is found wrong with it.
 class ModelReader {
  public:
-  ModelReader(const ModelArrays& arrays, Work& work, Model& model)
-      : in_(arrays), work_(work), m_(model) {}
+  ModelReader(const ModelArrays& arrays, Work& work, Charge& charge, Model& model)
+      : in_(arrays), work_(work), charge_(charge), m_(model) {}
 
   bool read();
   void findBox();
+  void checkSize();
   void addLoops();
-  void findCurves(Charge& charge);
+  void countUses();
+  void findPoints();
+  void findCurves();
   void checkUses();
   void unite();
   std::vector<ModelFault> faults;
@@ -118,6 +147,9 @@ class ModelReader {
   void fail(SurfaceFault fault, uint32_t face, uint32_t loop = kNone, uint32_t use = kNone,
             uint32_t edge = kNone);
   void addLoop(uint32_t face);
+  template <class F>
+  bool allAlong(const ModelEdge& edge, const ModelUse* use, F&& holds);
+  bool isPoint(const ModelEdge& edge, const ModelUse& use);
   bool checkUse(uint32_t use);
   void failUse(SurfaceFault fault, uint32_t use);
   Vec3 onSurface(const ModelUse& use, Point2 p) const {
@@ -126,13 +158,16 @@ class ModelReader {
 
   Reader in_;
   Work& work_;
+  Charge& charge_;
   Model& m_;
+  double samePoint_ = 0, slack_ = 0;
   struct EdgeFault {
     bool isFaulty = false;
     SurfaceFault fault = SurfaceFault::BadEdge;
   };
   std::vector<EdgeFault> edgeFaults_;
   std::vector<Vec3> lows_, highs_;  // the boxes of faces
+  std::vector<double> stops_;       // of allAlong()
 };
 
 void ModelReader::fail(SurfaceFault fault, uint32_t face, uint32_t loop, uint32_t use,
@@ -167,8 +202,10 @@ void ModelReader::readEdge(ModelEdge& edge, uint32_t number) {
   if (!in_.fits || bad.isFaulty) return;
   SurfaceFault fault;
   if (findFault(c, fault)) return fail(fault);
-  edge.curve =
-      std::make_unique<NurbsCurve>(NurbsCurveView{{c.degree, c.knots}, 3, c.at, c.weights});
+  if (!areInReach(c.at)) return fail(SurfaceFault::NotFinite);
+  const NurbsCurveView view{{c.degree, c.knots}, 3, c.at, c.weights};
+  if (!charge_.add(bytesOf(view))) return void(in_.fits = false);
+  edge.curve = std::make_unique<NurbsCurve>(view);
   const ArrayView<const double> breaks = edge.curve->spans().breaks();
   const double slack = kDomainSlack * (edge.to - edge.from);
   if (edge.from < breaks[0] - slack || edge.to > breaks[breaks.size() - 1] + slack)
@@ -191,11 +228,13 @@ void ModelReader::readFace(ModelFace& face, uint32_t number) {
   SurfaceFault fault;
   if (findFault(u, polesU, fault) || findFault(v, polesV, fault) || findFault(at, weights, fault)) {
     fail(fault, number);
+  } else if (!areInReach(at)) {
+    fail(SurfaceFault::NotFinite, number);
   } else {
-    const auto copy = [](ArrayView<const double> a) {
-      return std::vector<double>(a.begin(), a.end());
-    };
-    face.arrays = {degreeU, degreeV, copy(u.knots), copy(v.knots), copy(at), copy(weights)};
+    const NurbsSurfaceView view{u, v, at, weights};
+    const size_t copied = u.knots.size() + v.knots.size() + at.size() + weights.size();
+    if (!charge_.add(bytesOf(view) + copied * sizeof(double))) return void(in_.fits = false);
+    face.arrays = {degreeU, degreeV, copyOf(u.knots), copyOf(v.knots), copyOf(at), copyOf(weights)};
     face.surface = std::make_unique<NurbsSurface>(face.arrays.surface());
     Vec3 &low = lows_[number], &high = highs_[number];
     low = high = {at[0], at[1], at[2]};
@@ -216,10 +255,11 @@ void ModelReader::readFace(ModelFace& face, uint32_t number) {
       ModelUse use;
       use.face = number, use.loop = uint32_t(m_.loops.size());
       readUse(use, k, l);
+      if (!grow(m_.uses, charge_)) return void(in_.fits = false);
       m_.uses.push_back(std::move(use));
     }
     loop.endUse = uint32_t(m_.uses.size());
-    m_.loops.push_back(loop);
+    if (!push(m_.loops, loop, charge_)) in_.fits = false;
   }
   face.endLoop = uint32_t(m_.loops.size());
 }
@@ -247,26 +287,30 @@ void ModelReader::readUse(ModelUse& use, uint32_t place, uint32_t loopInFace) {
   if (!(std::fabs(domain[0] - e.from) <= slack && std::fabs(domain[1] - e.to) <= slack &&
         knots.from() <= e.from + slack && knots.to() >= e.to - slack))
     return fail(SurfaceFault::BadDomain);
-  const auto copy = [](ArrayView<const double> a) {
-    return std::vector<double>(a.begin(), a.end());
-  };
-  use.arrays = {c.degree, 0, copy(c.knots), {}, copy(c.at), copy(c.weights)};
+  const size_t copied = c.knots.size() + c.at.size() + c.weights.size();
+  if (!charge_.add(bytesOf(NurbsCurveView{knots, 2, c.at, c.weights}) + copied * sizeof(double)))
+    return void(in_.fits = false);
+  use.arrays = {c.degree, 0, copyOf(c.knots), {}, copyOf(c.at), copyOf(c.weights)};
   use.curve = TrimCurve(use.arrays.curve());
 }
 
 bool ModelReader::read() {
   const uint32_t faces = in_.count(), edges = in_.count();
   if (!in_.fits || !in_.holds(faces) || !in_.holds(edges)) return false;
+  const uint64_t perFace = sizeof(ModelFace) + 2 * sizeof(Vec3) + sizeof(ModelFault),
+                 perEdge = sizeof(ModelEdge) + sizeof(EdgeFault);
+  if (!charge_.add(faces * perFace + edges * perEdge)) return false;
   m_.faces.resize(faces), m_.edges.resize(edges);
   edgeFaults_.resize(edges), lows_.resize(faces), highs_.resize(faces);
   for (uint32_t e = 0; e < edges && in_.fits; ++e) readEdge(m_.edges[e], e);
   for (uint32_t f = 0; f < faces && in_.fits; ++f) {
     readFace(m_.faces[f], f);
-    if (!work_.tick(10000)) return false;
+    if (!work_.tick(kLookCost * (1 + m_.faces[f].arrays.poles.size()))) return false;
   }
   return in_.fits && in_.isAtEnd();
 }
 
+/// The box of the faces that are left, if there are any, and what counts as one point in it.
 void ModelReader::findBox() {
   bool isFirst = true;
   for (uint32_t f = 0; f < m_.faces.size(); ++f) {
@@ -275,6 +319,15 @@ void ModelReader::findBox() {
     m_.greatest = isFirst ? highs_[f] : highest(m_.greatest, highs_[f]);
     isFirst = false;
   }
+  const double rounding = kRounding * std::max(length(m_.least), length(m_.greatest));
+  samePoint_ = std::max(kSamePoint * m_.diagonal(), rounding);
+  slack_ = std::max(kSpaceSlack * m_.diagonal(), rounding);
+}
+
+/// Models without any size have no faces.
+void ModelReader::checkSize() {
+  if (m_.diagonal() >= kLeastDiagonal) return;
+  for (uint32_t f = 0; f < m_.faces.size(); ++f) fail(SurfaceFault::Degenerate, f);
 }
 
 /// A loop around the domain of a face that has none.
@@ -285,14 +338,14 @@ void ModelReader::addLoop(uint32_t number) {
   const double u0 = u.breaks()[0], u1 = u.breaks()[u.count()], v0 = v.breaks()[0],
                v1 = v.breaks()[v.count()];
   const Point2 corners[4] = {{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}};
-  const double same = kSamePoint * m_.diagonal();
   const auto side = [&](int k, double x) {
     const Point2 a = corners[k], b = corners[(k + 1) & 3];
     return s.at(a.x + x * (b.x - a.x), a.y + x * (b.y - a.y)).at;
   };
+  const uint32_t looks = 4 * kLooks * std::max(u.count(), v.count());
   const auto all = [&](auto&& holds) {
-    for (int i = 0; i <= 32; ++i)
-      if (!holds(i / 32.0)) return false;
+    for (uint32_t i = 0; i <= looks; ++i)
+      if (!holds(double(i) / looks)) return false;
     return true;
   };
   face.firstLoop = uint32_t(m_.loops.size());
@@ -306,7 +359,7 @@ void ModelReader::addLoop(uint32_t number) {
     const Point2 a = corners[k], b = corners[(k + 1) & 3];
     // The third side runs backwards along the first one where the surface closes; so does the fourth along the second.
     const bool closes = k >= 2 && !m_.edges[edges[k - 2]].isDegenerate && all([&](double x) {
-                          return distance(side(k, x), side(k - 2, 1 - x)) <= same;
+                          return distance(side(k, x), side(k - 2, 1 - x)) <= samePoint_;
                         });
     if (closes) {
       use.edge = edges[k] = edges[k - 2];
@@ -315,29 +368,97 @@ void ModelReader::addLoop(uint32_t number) {
       use.curve = TrimCurve(b, a, 0, 1);
     } else {
       ModelEdge edge;
-      edge.isDegenerate = all([&](double x) { return distance(side(k, x), side(k, 0)) <= same; });
+      edge.isDegenerate =
+          all([&](double x) { return distance(side(k, x), side(k, 0)) <= samePoint_; });
       use.edge = edges[k] = uint32_t(m_.edges.size());
       use.curve = TrimCurve(a, b, 0, 1);
+      if (!grow(m_.edges, charge_)) return;
       m_.edges.push_back(std::move(edge));
     }
+    if (!grow(m_.uses, charge_)) return;
     m_.uses.push_back(std::move(use));
   }
   loop.endUse = uint32_t(m_.uses.size());
-  m_.loops.push_back(loop);
+  if (!push(m_.loops, loop, charge_)) return;
   face.endLoop = uint32_t(m_.loops.size());
 }
 
 void ModelReader::addLoops() {
-  for (uint32_t f = 0; f < m_.faces.size(); ++f)
+  for (uint32_t f = 0; f < m_.faces.size() && work_.going(); ++f)
     if (!m_.faces[f].isLeftOut && m_.faces[f].firstLoop == m_.faces[f].endLoop) addLoop(f);
 }
 
+/// Whether something holds at parameters all along an edge: its ends, the breaks of its curves, and some between these; the more
+/// of them the more spans of the surface a use runs through. True too once the work has ended.
+///   use  one of its uses, whose curve is there, or null
+template <class F>
+bool ModelReader::allAlong(const ModelEdge& edge, const ModelUse* use, F&& holds) {
+  stops_.assign(1, edge.from);
+  const auto addBreaks = [&](const NurbsCurve& curve) {
+    for (const double t : curve.spans().breaks())
+      if (edge.from < t && t < edge.to) stops_.push_back(t);
+  };
+  if (edge.curve) addBreaks(*edge.curve);
+  if (use) addBreaks(use->curve.curve());
+  stops_.push_back(edge.to);
+  std::sort(stops_.begin(), stops_.end());
+  const auto spanNumbers = [&](double t) {
+    const NurbsSurface& surface = *m_.faces[use->face].surface;
+    const Point2 p = use->curve.at(t);
+    return std::pair<uint32_t, uint32_t>(surface.u().spanAt(p.x), surface.v().spanAt(p.y));
+  };
+  const auto apart = [](uint32_t a, uint32_t b) { return a < b ? b - a : a - b; };
+  for (size_t i = 0; i + 1 < stops_.size(); ++i) {
+    const double a = stops_[i], b = stops_[i + 1];
+    if (!(a < b)) continue;
+    uint32_t looks = kLooks;
+    if (use) {
+      const auto from = spanNumbers(a), to = spanNumbers(b);
+      looks *= 1 + apart(from.first, to.first) + apart(from.second, to.second);
+      looks = std::min(looks, kMostLooks);
+    }
+    for (uint32_t k = 0; k < looks; ++k)
+      if (!holds(a + (b - a) * k / looks)) return false;
+    if (!work_.tick(looks * kLookCost)) return true;
+  }
+  return holds(edge.to);
+}
+
+/// Whether all of an edge is one point.
+bool ModelReader::isPoint(const ModelEdge& edge, const ModelUse& use) {
+  if (!edge.curve && !use.curve.isFound()) return false;
+  const auto placeAt = [&](double t) {
+    return edge.curve ? edge.curve->placeAt(t) : onSurface(use, use.curve.at(t));
+  };
+  const Vec3 first = placeAt(edge.from);
+  if (distance(placeAt(0.5 * (edge.from + edge.to)), first) > samePoint_) return false;
+  return allAlong(edge, edge.curve ? nullptr : &use,
+                  [&](double t) { return distance(placeAt(t), first) <= samePoint_; });
+}
+
+/// Edges that are points, though they do not say so, are degenerate.
+void ModelReader::findPoints() {
+  for (ModelEdge& edge : m_.edges)
+    if (edge.uses > 0 && !edge.isDegenerate)
+      edge.isDegenerate = isPoint(edge, m_.uses[edge.firstUse]);
+}
+
+void ModelReader::countUses() {
+  for (ModelEdge& edge : m_.edges) edge.firstUse = kNone, edge.uses = 0;
+  for (uint32_t u = 0; u < m_.uses.size(); ++u) {
+    if (m_.faces[m_.uses[u].face].isLeftOut) continue;
+    ModelEdge& edge = m_.edges[m_.uses[u].edge];
+    if (edge.firstUse == kNone) edge.firstUse = u;
+    ++edge.uses;
+  }
+}
+
 /// Where curves of space have none in the domain.
-void ModelReader::findCurves(Charge& charge) {
+void ModelReader::findCurves() {
   for (uint32_t f = 0; f < m_.faces.size(); ++f) {
     if (m_.faces[f].isLeftOut) continue;
     uint32_t lost;
-    if (!findMissingCurves(m_, f, kSpaceSlack * m_.diagonal(), work_, charge, lost)) return;
+    if (!findMissingCurves(m_, f, slack_, work_, charge_, lost)) return;
     if (lost != kNone) failUse(SurfaceFault::EdgeApart, lost);
   }
 }
@@ -354,22 +475,21 @@ bool ModelReader::checkUse(uint32_t number) {
     return false;
   }
   const BezierSpans &u = m_.faces[use.face].surface->u(), &v = m_.faces[use.face].surface->v();
-  const double slack = edge.tolerance + kSpaceSlack * m_.diagonal();
+  const double slack = edge.tolerance + slack_;
   // What is compared with: the edge's curve, or its only point, or the use that stands for it.
   const ModelUse* other = edge.firstUse == number ? nullptr : &m_.uses[edge.firstUse];
   const bool isBare = !edge.curve && !edge.isDegenerate;
   if (isBare && other && other->face != use.face)
     return failUse(SurfaceFault::BadEdge, number), false;
   const Vec3 first = onSurface(use, use.curve.at(edge.from));
-  const uint32_t pieces = isBare && !other ? 0 : piecesOf(use);
-  for (uint32_t i = 0; i <= pieces && pieces > 0; ++i) {
-    const double t = edge.from + (edge.to - edge.from) * i / pieces;
+  const auto isNear = [&](double t) {
     const Vec3 at = edge.isDegenerate ? first
                     : edge.curve      ? edge.curve->placeAt(t)
                                       : onSurface(*other, other->curve.at(t));
-    if (!(distance(onSurface(use, use.curve.at(t)), at) <= slack))
-      return failUse(SurfaceFault::EdgeApart, number), false;
-  }
+    return distance(onSurface(use, use.curve.at(t)), at) <= slack;
+  };
+  if ((!isBare || other) && !allAlong(edge, &use, isNear))
+    return failUse(SurfaceFault::EdgeApart, number), false;
   const uint32_t next = m_.after(number);
   const ModelUse& after = m_.uses[next];
   if (!after.curve.isFound()) return failUse(SurfaceFault::EdgeApart, next), false;
@@ -385,23 +505,8 @@ bool ModelReader::checkUse(uint32_t number) {
 }
 
 void ModelReader::checkUses() {
-  const auto isThere = [&](const ModelUse& use) { return !m_.faces[use.face].isLeftOut; };
-  for (uint32_t u = 0; u < m_.uses.size(); ++u) {
-    if (!isThere(m_.uses[u])) continue;
-    ModelEdge& edge = m_.edges[m_.uses[u].edge];
-    if (edge.firstUse == kNone) edge.firstUse = u;
-    ++edge.uses;
-  }
-  for (uint32_t u = 0; u < m_.uses.size(); ++u)
-    if (isThere(m_.uses[u])) checkUse(u);
-  // Of the faces that are left.
-  for (ModelEdge& edge : m_.edges) edge.firstUse = kNone, edge.uses = 0;
-  for (uint32_t u = 0; u < m_.uses.size(); ++u) {
-    if (!isThere(m_.uses[u])) continue;
-    ModelEdge& edge = m_.edges[m_.uses[u].edge];
-    if (edge.firstUse == kNone) edge.firstUse = u;
-    ++edge.uses;
-  }
+  for (uint32_t u = 0; u < m_.uses.size() && work_.tick(kLookCost); ++u)
+    if (!m_.faces[m_.uses[u].face].isLeftOut) checkUse(u);
 }
 
 /// Numbers the vertices.
@@ -410,6 +515,7 @@ void ModelReader::unite() {
     const ModelUse& u = m_.uses[use];
     return 2 * u.edge + uint32_t(isAtEnd != u.isReversed);
   };
+  if (!charge_.add(6 * sizeof(uint32_t) * m_.edges.size())) return;
   UnionFind ends(uint32_t(2 * m_.edges.size()));
   for (uint32_t u = 0; u < m_.uses.size(); ++u)
     if (!m_.faces[m_.uses[u].face].isLeftOut) ends.unite(end(u, true), end(m_.after(u), false));
@@ -424,22 +530,31 @@ void ModelReader::unite() {
   for (const ModelFace& face : m_.faces) {
     if (face.isLeftOut || face.endLoop - face.firstLoop < 2) continue;
     corners.clear();
-    const BezierSpans &u = face.surface->u(), &v = face.surface->v();
-    const double nearU = kDomainSlack * (u.breaks()[u.count()] - u.breaks()[0]),
-                 nearV = kDomainSlack * (v.breaks()[v.count()] - v.breaks()[0]);
+    Vec3 low, high;
+    domainOf(face, 0, low, high);
+    const Vec3 near = kDomainSlack * (high - low);
     for (uint32_t use = m_.loops[face.firstLoop].firstUse; use < m_.loops[face.endLoop - 1].endUse;
          ++use) {
       const ModelEdge& edge = m_.edges[m_.uses[use].edge];
       if (edge.isDegenerate) continue;
-      corners.push_back(
-          {m_.uses[use].curve.at(m_.uses[use].isReversed ? edge.to : edge.from), end(use, false)});
+      const Corner corner{m_.uses[use].curve.at(m_.uses[use].isReversed ? edge.to : edge.from),
+                          end(use, false)};
+      if (!push(corners, corner, charge_)) return;
     }
     std::sort(corners.begin(), corners.end(),
               [](const Corner& a, const Corner& b) { return a.at.x < b.at.x; });
-    for (size_t i = 0; i < corners.size(); ++i)
-      for (size_t k = i + 1; k < corners.size() && corners[k].at.x - corners[i].at.x <= nearU; ++k)
-        if (std::fabs(corners[k].at.y - corners[i].at.y) <= nearV)
-          ends.unite(corners[i].end, corners[k].end);
+    // Runs of corners with nearly the same u can be long; in each by v.
+    for (size_t first = 0, last = 0; first < corners.size(); first = last) {
+      do ++last;
+      while (last < corners.size() && corners[last].at.x - corners[last - 1].at.x <= near.x);
+      std::sort(corners.begin() + first, corners.begin() + last,
+                [](const Corner& a, const Corner& b) { return a.at.y < b.at.y; });
+      for (size_t i = first; i < last; ++i)
+        for (size_t k = i + 1; k < last && corners[k].at.y - corners[i].at.y <= near.y; ++k)
+          if (std::fabs(corners[k].at.x - corners[i].at.x) <= near.x)
+            ends.unite(corners[i].end, corners[k].end);
+    }
+    if (!work_.tick(100 * corners.size())) return;
   }
   std::vector<uint32_t> numbers(2 * m_.edges.size(), kNone);
   m_.vertices = 0;
@@ -456,37 +571,31 @@ void ModelReader::unite() {
 bool staysInDomain(const Model& model, uint32_t number, double share) {
   const ModelUse& use = model.uses[number];
   const ModelEdge& edge = model.edges[use.edge];
-  const NurbsSurface& surface = *model.faces[use.face].surface;
-  const auto isWithin = [&](const BezierSpans& spans, double x) {
-    const double from = spans.breaks()[0], to = spans.breaks()[spans.count()];
-    const double slack = share * (to - from);
-    return x >= from - slack && x <= to + slack;
-  };
-  const uint32_t pieces = piecesOf(use);
-  for (uint32_t i = 0; i <= pieces; ++i) {
-    const Point2 p = use.curve.at(edge.from + (edge.to - edge.from) * i / pieces);
-    if (!isWithin(surface.u(), p.x) || !isWithin(surface.v(), p.y)) return false;
-  }
-  return true;
+  Vec3 low, high;
+  domainOf(model.faces[use.face], share, low, high);
+  return liesWithin(use.curve.curve(), edge.from, edge.to, low, high);
 }
 
 bool readModel(const ModelArrays& arrays, Work& work, Charge& charge, Model& model,
                std::vector<ModelFault>& faults) {
-  // Bézier points, the factors that they are made by, and room for the lists that grow.
-  const uint64_t bytes =
-      8 * (24 * uint64_t(arrays.numbers.size()) + 32 * uint64_t(arrays.shape.size()));
-  if (!charge.add(bytes)) return false;
-  ModelReader reader(arrays, work, model);
+  ModelReader reader(arrays, work, charge, model);
   if (!reader.read()) return model = {}, false;
   reader.findBox();
+  reader.checkSize();
   reader.addLoops();
-  reader.findCurves(charge);
-  if (!work.going()) return model = {}, false;
+  reader.countUses();
+  reader.findPoints();
+  reader.findCurves();
   reader.checkUses();
+  if (!work.going()) return model = {}, false;
+  // Of the faces that are left.
+  reader.countUses();
+  reader.findBox();
   reader.unite();
   faults.swap(reader.faults);
   std::stable_sort(faults.begin(), faults.end(),
                    [](const ModelFault& a, const ModelFault& b) { return a.face < b.face; });
+  if (!work.going()) model = {};
   return work.going();
 }
 
