@@ -103,7 +103,7 @@ function measureModel(file, reference) {
   const { ms, low, high, result: mesh } = timed(() => model.tessellate(kSampling), name === 'hull' ? 5 : kRuns);
   const facts = looked(mesh);
   const fine = looked(model.tessellate({ relative: 1e-4, angle: 0.2 }));
-  const off = reference ? Math.max(...reference.area.map((area, face) => Math.abs(fine.areas[face] / area - 1))) : null;
+  const off = reference?.area ? Math.max(...reference.area.map((area, face) => Math.abs(fine.areas[face] / area - 1))) : null;
   model.dispose();
   return { name, faces: json.faces.length, opened, ms, low, high, ...facts, areas: undefined, off, cracks: reference?.closed ? facts.open : 0, deviation: mesh.deviation / mesh.tolerance, steps: words.length > 0 || json.faces.length < 100 ? measureSteps(json) : null };
 }

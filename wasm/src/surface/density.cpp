@@ -14,6 +14,8 @@ constexpr double kCrease = 1e-3;
 constexpr int kMostLooks = 4;
 /// Most cells of a grid.
 constexpr double kMostCells = 1 << 21;
+/// Most intervals of one parameter.
+constexpr size_t kMostLines = 1 << 14;
 /// How often what is allowed is doubled at most to keep to that.
 constexpr int kMostTries = 60;
 constexpr double kHalfway = 1.38;
@@ -77,7 +79,8 @@ void LineTree::refine(F&& isHalved, Choice& choice) {
   while (!open.empty()) {
     const uint32_t n = open.back();
     open.pop_back();
-    if (nodes_[n].b - nodes_[n].a > least && isHalved(nodes_[n])) {
+    const bool isFull = choice.nodes.size() + open.size() > kMostLines;
+    if (!isFull && nodes_[n].b - nodes_[n].a > least && isHalved(nodes_[n])) {
       const uint32_t child = childOf(n);
       open.push_back(child + 1), open.push_back(child);
     } else {
@@ -200,6 +203,11 @@ bool refineColumns(std::vector<LineTree::Column>& columns) {
 }
 
 }  // namespace
+
+/// How many cells some lines make.
+static double cellsOf(const Density::Lines& lines) {
+  return double(lines.u.nodes.size()) * double(lines.v.nodes.size());
+}
 
 double Density::longest(const Lines& lines) const {
   if (lines.u.nodes.size() == 1 && lines.v.nodes.size() == 1) return Sampling::kNoLimit;
@@ -374,8 +382,11 @@ void Density::choose(const Allowance& wanted, const Fineness& fineness, Lines& l
   double turn = fineness.angle() < kPi ? fineness.angle() : Sampling::kNoLimit;
   for (int k = 0; k < kMostTries; ++k) {
     chooseAny(allowance, turn, lines);
-    if (double(lines.u.nodes.size()) * double(lines.v.nodes.size()) <= kMostCells) break;
-    allowance = allowance.times(2), turn *= 2;
+    const double cells = cellsOf(lines);
+    if (cells <= kMostCells) break;
+    // About as many as errors are smaller.
+    const double factor = std::max(2.0, cells / kMostCells);
+    allowance = allowance.times(factor), turn *= factor;
   }
   shapeCells(fineness.aspect(), lines);
 }
@@ -387,6 +398,7 @@ void Density::chooseAny(const Allowance& allowance, double turn, Lines& lines) {
   constexpr double kShares[] = {1, 0.75, 0.5, 0.25, 0.125};
   u.choose(1, allowedU, turn, lines.u);
   v.choose(1, allowedV, turn, lines.v);
+  if (cellsOf(lines) > kMostCells) return;
   // The most that each may be.
   if (lines.u.error + lines.v.error > 1) {
     Density::Lines best;
@@ -412,7 +424,7 @@ void Density::chooseAny(const Allowance& allowance, double turn, Lines& lines) {
   // A twisted surface that is straight along both parameters is off by a quarter of its twist.
   if (twist_ > 0 && allowance.least() < Sampling::kNoLimit) {
     bool isOff = true;
-    for (uint32_t k = 0; k < kMostDepth && isOff; ++k) {
+    for (uint32_t k = 0; k < kMostDepth && isOff && cellsOf(lines) <= kMostCells; ++k) {
       isOff = false;
       std::vector<double> us, vs;
       u.lines(lines.u, us), v.lines(lines.v, vs);
@@ -440,7 +452,7 @@ void Density::shapeCells(double aspect, Lines& lines) {
   // Halves are about as near to the aspect as what is a little shorter than this; cells that are nearly square rather stay so.
   double most = std::min(kHalfway, 0.6 + 0.45 * aspect) * aspect;
   // Where that would be too many, longer cells.
-  const double cells = double(lines.u.nodes.size()) * double(lines.v.nodes.size());
+  const double cells = cellsOf(lines);
   most = std::max(most, std::max(lu / lv, lv / lu) * 2 * cells / kMostCells);
   u.shorten(most * lv, lines.u);
   v.shorten(most * lu, lines.v);
