@@ -13,7 +13,7 @@ const kMessages: Readonly<Record<Fault, (place: ErrorPlace) => string>> = {
   'bad-knots': (place) =>
     `the knots of ${curveOf(place)} must never fall, be as many as degree and poles need, and inside the domain repeat ` +
     'at most `degree` times; the degree must be from 1 to 25',
-  'bad-weights': (place) => `a weight of ${curveOf(place)} is not positive`,
+  'bad-weights': (place) => `a weight of ${curveOf(place)} is not positive, or more than 1e10 times another`,
   'not-finite': (place) => `a number of ${curveOf(place)} is NaN, infinite or beyond 1e150`,
   'bad-edge': () =>
     'there is no such edge, or it has neither `pcurve` nor `curve3d`, or faces share it and it has no `curve3d`',

@@ -14,7 +14,7 @@ constexpr double kDomainSlack = 1e-6;
 /// A face with a curve that leaves the domain by more than that is not looked at any further.
 constexpr double kFarOutside = 0.5;
 /// Weights may differ by this factor. Beyond it, what has the smaller ones is lost to rounding.
-constexpr double kLargestRatio = 1e9;
+constexpr double kLargestRatio = 1e10;
 /// How far curves may be apart beyond what their edge tells, in the model's diagonal.
 constexpr double kSpaceSlack = 1e-5;
 /// Consecutive curves may be this much of the domain apart if they meet in space.
