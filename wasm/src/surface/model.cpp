@@ -123,6 +123,48 @@ void domainOf(const ModelFace& face, double share, Vec3& low, Vec3& high) {
   low = low - slack, high = high + slack;
 }
 
+Vec3 onSurface(const Model& model, const ModelUse& use, double t) {
+  const Point2 p = use.curve.at(t);
+  return model.faces[use.face].surface->tangentsAt(p.x, p.y).at;
+}
+
+/// Whether something holds at parameters all along an edge: its ends, the breaks of its curves, and some between these; the more
+/// of them the more spans of the surface a use runs through. True too once the work has ended.
+///   use  one of its uses, whose curve is there, or null
+template <class F>
+bool allAlong(const Model& model, const ModelEdge& edge, const ModelUse* use, Work& work,
+              F&& holds) {
+  std::vector<double> stops{edge.from};
+  const auto addBreaks = [&](const NurbsCurve& curve) {
+    for (const double t : curve.spans().breaks())
+      if (edge.from < t && t < edge.to) stops.push_back(t);
+  };
+  if (edge.curve) addBreaks(*edge.curve);
+  if (use) addBreaks(use->curve.curve());
+  stops.push_back(edge.to);
+  std::sort(stops.begin(), stops.end());
+  const auto spanNumbers = [&](double t) {
+    const NurbsSurface& surface = *model.faces[use->face].surface;
+    const Point2 p = use->curve.at(t);
+    return std::pair<uint32_t, uint32_t>(surface.u().spanAt(p.x), surface.v().spanAt(p.y));
+  };
+  const auto apart = [](uint32_t a, uint32_t b) { return a < b ? b - a : a - b; };
+  for (size_t i = 0; i + 1 < stops.size(); ++i) {
+    const double a = stops[i], b = stops[i + 1];
+    if (!(a < b)) continue;
+    uint32_t looks = kLooks;
+    if (use) {
+      const auto from = spanNumbers(a), to = spanNumbers(b);
+      looks *= 1 + apart(from.first, to.first) + apart(from.second, to.second);
+      looks = std::min(looks, kMostLooks);
+    }
+    for (uint32_t k = 0; k < looks; ++k)
+      if (!holds(a + (b - a) * k / looks)) return false;
+    if (!work.tick(looks * kLookCost)) return true;
+  }
+  return holds(edge.to);
+}
+
 /// The model under way, and what is found wrong with it.
 class ModelReader {
  public:
@@ -147,27 +189,21 @@ class ModelReader {
   void fail(SurfaceFault fault, uint32_t face, uint32_t loop = kNone, uint32_t use = kNone,
             uint32_t edge = kNone);
   void addLoop(uint32_t face);
-  template <class F>
-  bool allAlong(const ModelEdge& edge, const ModelUse* use, F&& holds);
   bool isPoint(const ModelEdge& edge, const ModelUse& use);
   bool checkUse(uint32_t use);
   void failUse(SurfaceFault fault, uint32_t use);
-  Vec3 onSurface(const ModelUse& use, Point2 p) const {
-    return m_.faces[use.face].surface->tangentsAt(p.x, p.y).at;
-  }
 
   Reader in_;
   Work& work_;
   Charge& charge_;
   Model& m_;
-  double samePoint_ = 0, slack_ = 0;
+  double samePoint_ = 0;
   struct EdgeFault {
     bool isFaulty = false;
     SurfaceFault fault = SurfaceFault::BadEdge;
   };
   std::vector<EdgeFault> edgeFaults_;
   std::vector<Vec3> lows_, highs_;  // the boxes of faces
-  std::vector<double> stops_;       // of allAlong()
 };
 
 void ModelReader::fail(SurfaceFault fault, uint32_t face, uint32_t loop, uint32_t use,
@@ -225,13 +261,11 @@ void ModelReader::readFace(ModelFace& face, uint32_t number) {
   if (!in_.fits) return;
   face.isReversed = (flags & 1) != 0;
   face.firstLoop = uint32_t(m_.loops.size());
+  const NurbsSurfaceView view{u, v, at, weights};
   SurfaceFault fault;
-  if (findFault(u, polesU, fault) || findFault(v, polesV, fault) || findFault(at, weights, fault)) {
+  if (findFault(u, polesU, fault) || findFault(v, polesV, fault) || findFault(view, fault)) {
     fail(fault, number);
-  } else if (!areInReach(at)) {
-    fail(SurfaceFault::NotFinite, number);
   } else {
-    const NurbsSurfaceView view{u, v, at, weights};
     const size_t copied = u.knots.size() + v.knots.size() + at.size() + weights.size();
     if (!charge_.add(bytesOf(view) + copied * sizeof(double))) return void(in_.fits = false);
     face.arrays = {degreeU, degreeV, copyOf(u.knots), copyOf(v.knots), copyOf(at), copyOf(weights)};
@@ -321,7 +355,7 @@ void ModelReader::findBox() {
   }
   const double rounding = kRounding * std::max(length(m_.least), length(m_.greatest));
   samePoint_ = std::max(kSamePoint * m_.diagonal(), rounding);
-  slack_ = std::max(kSpaceSlack * m_.diagonal(), rounding);
+  m_.slack = std::max(kSpaceSlack * m_.diagonal(), rounding);
 }
 
 /// Models without any size have no faces.
@@ -388,51 +422,15 @@ void ModelReader::addLoops() {
     if (!m_.faces[f].isLeftOut && m_.faces[f].firstLoop == m_.faces[f].endLoop) addLoop(f);
 }
 
-/// Whether something holds at parameters all along an edge: its ends, the breaks of its curves, and some between these; the more
-/// of them the more spans of the surface a use runs through. True too once the work has ended.
-///   use  one of its uses, whose curve is there, or null
-template <class F>
-bool ModelReader::allAlong(const ModelEdge& edge, const ModelUse* use, F&& holds) {
-  stops_.assign(1, edge.from);
-  const auto addBreaks = [&](const NurbsCurve& curve) {
-    for (const double t : curve.spans().breaks())
-      if (edge.from < t && t < edge.to) stops_.push_back(t);
-  };
-  if (edge.curve) addBreaks(*edge.curve);
-  if (use) addBreaks(use->curve.curve());
-  stops_.push_back(edge.to);
-  std::sort(stops_.begin(), stops_.end());
-  const auto spanNumbers = [&](double t) {
-    const NurbsSurface& surface = *m_.faces[use->face].surface;
-    const Point2 p = use->curve.at(t);
-    return std::pair<uint32_t, uint32_t>(surface.u().spanAt(p.x), surface.v().spanAt(p.y));
-  };
-  const auto apart = [](uint32_t a, uint32_t b) { return a < b ? b - a : a - b; };
-  for (size_t i = 0; i + 1 < stops_.size(); ++i) {
-    const double a = stops_[i], b = stops_[i + 1];
-    if (!(a < b)) continue;
-    uint32_t looks = kLooks;
-    if (use) {
-      const auto from = spanNumbers(a), to = spanNumbers(b);
-      looks *= 1 + apart(from.first, to.first) + apart(from.second, to.second);
-      looks = std::min(looks, kMostLooks);
-    }
-    for (uint32_t k = 0; k < looks; ++k)
-      if (!holds(a + (b - a) * k / looks)) return false;
-    if (!work_.tick(looks * kLookCost)) return true;
-  }
-  return holds(edge.to);
-}
-
 /// Whether all of an edge is one point.
 bool ModelReader::isPoint(const ModelEdge& edge, const ModelUse& use) {
   if (!edge.curve && !use.curve.isFound()) return false;
   const auto placeAt = [&](double t) {
-    return edge.curve ? edge.curve->placeAt(t) : onSurface(use, use.curve.at(t));
+    return edge.curve ? edge.curve->placeAt(t) : onSurface(m_, use, t);
   };
   const Vec3 first = placeAt(edge.from);
   if (distance(placeAt(0.5 * (edge.from + edge.to)), first) > samePoint_) return false;
-  return allAlong(edge, edge.curve ? nullptr : &use,
+  return allAlong(m_, edge, edge.curve ? nullptr : &use, work_,
                   [&](double t) { return distance(placeAt(t), first) <= samePoint_; });
 }
 
@@ -458,7 +456,7 @@ void ModelReader::findCurves() {
   for (uint32_t f = 0; f < m_.faces.size(); ++f) {
     if (m_.faces[f].isLeftOut) continue;
     uint32_t lost;
-    if (!findMissingCurves(m_, f, slack_, work_, charge_, lost)) return;
+    if (!findMissingCurves(m_, f, m_.slack, work_, charge_, lost)) return;
     if (lost != kNone) failUse(SurfaceFault::EdgeApart, lost);
   }
 }
@@ -475,31 +473,21 @@ bool ModelReader::checkUse(uint32_t number) {
     return false;
   }
   const BezierSpans &u = m_.faces[use.face].surface->u(), &v = m_.faces[use.face].surface->v();
-  const double slack = edge.tolerance + slack_;
-  // What is compared with: the edge's curve, or its only point, or the use that stands for it.
-  const ModelUse* other = edge.firstUse == number ? nullptr : &m_.uses[edge.firstUse];
-  const bool isBare = !edge.curve && !edge.isDegenerate;
-  if (isBare && other && other->face != use.face)
+  if (!edge.curve && !edge.isDegenerate && m_.uses[edge.firstUse].face != use.face)
     return failUse(SurfaceFault::BadEdge, number), false;
-  const Vec3 first = onSurface(use, use.curve.at(edge.from));
-  const auto isNear = [&](double t) {
-    const Vec3 at = edge.isDegenerate ? first
-                    : edge.curve      ? edge.curve->placeAt(t)
-                                      : onSurface(*other, other->curve.at(t));
-    return distance(onSurface(use, use.curve.at(t)), at) <= slack;
-  };
-  if ((!isBare || other) && !allAlong(edge, &use, isNear))
-    return failUse(SurfaceFault::EdgeApart, number), false;
+  if (!runsWithEdge(m_, number, work_)) return failUse(SurfaceFault::EdgeApart, number), false;
   const uint32_t next = m_.after(number);
   const ModelUse& after = m_.uses[next];
   if (!after.curve.isFound()) return failUse(SurfaceFault::EdgeApart, next), false;
   const ModelEdge& edgeAfter = m_.edges[after.edge];
-  const Point2 end = use.curve.at(use.isReversed ? edge.from : edge.to);
-  const Point2 begin = after.curve.at(after.isReversed ? edgeAfter.to : edgeAfter.from);
+  const double tEnd = use.isReversed ? edge.from : edge.to,
+               tBegin = after.isReversed ? edgeAfter.to : edgeAfter.from;
+  const Point2 end = use.curve.at(tEnd), begin = after.curve.at(tBegin);
   const double gap = std::max(std::fabs(end.x - begin.x) / (u.breaks()[u.count()] - u.breaks()[0]),
                               std::fabs(end.y - begin.y) / (v.breaks()[v.count()] - v.breaks()[0]));
-  const double apart = distance(onSurface(use, end), onSurface(use, begin));
-  if (gap > kDomainSlack && (gap > kLargestGap || apart > slack + edgeAfter.tolerance))
+  const double apart = distance(onSurface(m_, use, tEnd), onSurface(m_, after, tBegin)),
+               allowed = m_.slack + edge.tolerance + edgeAfter.tolerance;
+  if (gap > kDomainSlack && (gap > kLargestGap || apart > allowed))
     return failUse(SurfaceFault::TrimOpen, number), false;
   return true;
 }
@@ -567,6 +555,26 @@ void ModelReader::unite() {
 }
 
 }  // namespace
+
+bool findFault(const NurbsSurfaceView& surface, SurfaceFault& fault) {
+  if (findFault(surface.poles, surface.weights, fault)) return true;
+  fault = SurfaceFault::NotFinite;
+  return !areInReach(surface.poles);
+}
+
+bool runsWithEdge(const Model& model, uint32_t number, Work& work) {
+  const ModelUse& use = model.uses[number];
+  const ModelEdge& edge = model.edges[use.edge];
+  const ModelUse& first = model.uses[edge.firstUse];
+  if (!edge.curve && !edge.isDegenerate && edge.firstUse == number) return true;
+  const Vec3 begin = onSurface(model, use, edge.from);
+  return allAlong(model, edge, &use, work, [&](double t) {
+    const Vec3 at = edge.isDegenerate ? begin
+                    : edge.curve      ? edge.curve->placeAt(t)
+                                      : onSurface(model, first, t);
+    return distance(onSurface(model, use, t), at) <= model.slack + edge.tolerance;
+  });
+}
 
 bool staysInDomain(const Model& model, uint32_t number, double share) {
   const ModelUse& use = model.uses[number];

@@ -100,6 +100,7 @@ struct Model {
   std::vector<ModelFace> faces;
   uint32_t vertices = 0;
   Vec3 least{}, greatest{};  // the box of all poles of faces that are not left out
+  double slack = 0;          // how far curves may be apart beyond their edge's tolerance
   double diagonal() const { return length(greatest - least); }
 
   /// A use of a loop after or before another, around the loop.
@@ -112,6 +113,13 @@ struct Model {
     return use == loop.firstUse ? loop.endUse - 1 : use - 1;
   }
 };
+
+/// Whether something is wrong with the poles and weights of a surface, and what.
+bool findFault(const NurbsSurfaceView& surface, SurfaceFault& fault);
+
+/// Whether a use's curve, on its surface, runs with its edge within tolerance: with its curve of space, or if it has none with
+/// the edge's first use; if the edge is degenerate, it stays where it begins. True too once the work has ended.
+bool runsWithEdge(const Model& model, uint32_t use, Work& work);
 
 /// Whether a use's curve stays in the domain of its face, or leaves it by no more than this share of its size.
 bool staysInDomain(const Model& model, uint32_t use, double share = 1e-6);
