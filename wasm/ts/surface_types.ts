@@ -224,10 +224,11 @@ export interface Tessellation {
 export interface Change {
   /**
    * The whole mesh. Its positions, normals, uvs, triangles and strips are the same arrays from update to update, written where the
-   * ranges say, until a face outgrows its room: then all arrays are new, and the ranges are all of them.
+   * ranges say. Where they have to grow, they are new and longer, and the same but for the ranges. Now and then all is laid out
+   * again, as at the first update: then the ranges are all of them.
    *
    * Faces have room to grow. What is left of it is filled with triangles of a single vertex, and strips of such, which are not
-   * drawn; and with vertices that no triangle has.
+   * drawn; and with vertices that no triangle has. The vertices of a face that outgrows its room move behind all others.
    */
   readonly mesh: Tessellation;
   /** Pairs `[from, to)` of vertices, of elements of `triangles` and of elements of `strips` that were written. */

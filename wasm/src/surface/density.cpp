@@ -25,6 +25,8 @@ constexpr double kLongCell = 4.5;
 /// as its nearest point at no more than this loss.
 constexpr uint32_t kPartLevels = 4, kParts = 1u << kPartLevels;
 constexpr double kOneTolerance = 0.7;
+/// How often the smallest parts are quartered, to see which of it is shown and how near it is.
+constexpr int kNearLevels = 7;
 /// How many cells an interval of an edge may be long.
 constexpr double kEdgeCells = 3;
 
@@ -336,15 +338,22 @@ void Density::findBalls(const NurbsSurface& surface) {
     return Vec3{p[0], p[1], p[2]};
   };
   balls_.resize(firstBall(kPartLevels + 1));
+  nets_.resize(kParts * kParts);
   for (uint32_t i = 0; i < kParts; ++i)
     for (uint32_t j = 0; j < kParts; ++j) {
+      Net& net = nets_[i * kParts + j];
+      net = {{place(2 * i, 2 * j), place(2 * i, 2 * j + 2), place(2 * i + 2, 2 * j),
+              place(2 * i + 2, 2 * j + 2)},
+             0};
       Ball& ball = balls_[firstBall(kPartLevels) + i * kParts + j];
       ball = {place(2 * i + 1, 2 * j + 1), 0};
-      for (uint32_t k = 0; k < 9; ++k)
-        ball.radius =
-            std::max(ball.radius, distance(ball.middle, place(2 * i + k / 3, 2 * j + k % 3)));
+      for (uint32_t k = 0; k < 9; ++k) {
+        const Vec3 p = place(2 * i + k / 3, 2 * j + k % 3);
+        ball.radius = std::max(ball.radius, distance(ball.middle, p));
+        net.off = std::max(net.off, distance(p, net.at(0.5 * (k / 3), 0.5 * (k % 3))));
+      }
       // What lies between may be a little farther out.
-      ball.radius *= 1.1;
+      ball.radius *= 1.1, net.off *= 1.5;
     }
   for (uint32_t level = kPartLevels; level-- > 0;)
     for (uint32_t i = 0; i < 1u << level; ++i)
@@ -360,13 +369,36 @@ void Density::findBalls(const NurbsSurface& surface) {
       }
 }
 
+/// The finest tolerance of a net, from quarters of quarters where a camera is near.
+double Density::finestOf(const Fineness& fineness, const Net& net, int levels) {
+  const Vec3 middle = net.at(0.5, 0.5);
+  double radius = 0;
+  for (const Vec3& corner : net.corners) radius = std::max(radius, distance(middle, corner));
+  const double finest = fineness.tolerance(middle, radius + net.off);
+  if (levels == 0 || finest == Sampling::kNoLimit || radius < net.off ||
+      finest > kOneTolerance * fineness.tolerance(middle, 0))
+    return finest;
+  double least = Sampling::kNoLimit;
+  for (const double x : {0.0, 0.5})
+    for (const double y : {0.0, 0.5}) {
+      const Net quarter{
+          {net.at(x, y), net.at(x, y + 0.5), net.at(x + 0.5, y), net.at(x + 0.5, y + 0.5)},
+          net.off};
+      least = std::min(least, finestOf(fineness, quarter, levels - 1));
+    }
+  return least;
+}
+
 /// Fills the parts of a quarter of a quarter, and so on: as one where its nearest point makes little difference.
 void Density::fillParts(const Fineness& fineness, uint32_t level, uint32_t i, uint32_t j,
                         std::vector<double>& parts) const {
   const Ball& ball = balls_[firstBall(level) + (i << level) + j];
-  const double finest = fineness.tolerance(ball.middle, ball.radius);
-  if (level < kPartLevels && finest < Sampling::kNoLimit &&
-      finest < kOneTolerance * fineness.tolerance(ball.middle, 0)) {
+  double finest = fineness.tolerance(ball.middle, ball.radius);
+  const bool isNear =
+      finest < Sampling::kNoLimit && finest < kOneTolerance * fineness.tolerance(ball.middle, 0);
+  if (isNear && level == kPartLevels) {
+    finest = finestOf(fineness, nets_[i * kParts + j], kNearLevels);
+  } else if (isNear) {
     for (uint32_t k = 0; k < 4; ++k)
       fillParts(fineness, level + 1, 2 * i + k / 2, 2 * j + k % 2, parts);
     return;

@@ -123,15 +123,28 @@ class Density {
     Vec3 middle;
     double radius;
   };
+  /// One of the smallest parts, nearly: what lies between its corners, and how far the surface is off that.
+  struct Net {
+    Vec3 corners[4];  // u by u
+    double off;
+
+    Vec3 at(double x, double y) const {
+      const Vec3 a = corners[0] + y * (corners[1] - corners[0]),
+                 b = corners[2] + y * (corners[3] - corners[2]);
+      return a + x * (b - a);
+    }
+  };
 
   void chooseAny(const Allowance& allowance, double turn, Lines& lines);
   void shapeCells(double aspect, Lines& lines);
   void findBalls(const NurbsSurface& surface);
+  static double finestOf(const Fineness& fineness, const Net& net, int levels);
   void fillParts(const Fineness& fineness, uint32_t level, uint32_t i, uint32_t j,
                  std::vector<double>& parts) const;
 
   Box2 box_{};
   std::vector<Ball> balls_;  // once they were wanted: of all of it, of its 4 quarters, their 16 ...
+  std::vector<Net> nets_;    // of the smallest parts
   double farU_ = 0, farV_ = 0;
   double twist_ = 0, formU_ = 0, formV_ = 0, speedU_ = 1, speedV_ = 1;
 };

@@ -73,6 +73,9 @@ EdgeTree::EdgeTree(const Model& model, uint32_t edge, ArrayView<const uint32_t> 
   for (const double t : breaks_) breakPoints_.push_back(at(t));
   for (size_t i = 0; i + 1 < breaks_.size(); ++i)
     add(breaks_[i], breakPoints_[i], breaks_[i + 1], breakPoints_[i + 1]);
+  for (const Node& node : nodes_) middle_ = middle_ + (1.0 / double(nodes_.size())) * node.middle;
+  for (const Node& node : nodes_)
+    radius_ = std::max(radius_, distance(middle_, node.middle) + 0.5 * node.chord + node.error);
 }
 
 Vec3 EdgeTree::at(double t) const {
@@ -136,6 +139,8 @@ void EdgeTree::select(const Fineness& fineness, double longest, std::vector<Edge
   uint32_t waiting = 0;
   const double least = kShortest * (e.to - e.from);
   const bool isClosed = e.fromVertex == e.toVertex && !e.isDegenerate;
+  Settled settled;
+  settled.isSo = true, settled.angle = fineness.angle(), settled.hysteresis = fineness.hysteresis();
   for (uint32_t i = 0; i + 1 < breaks_.size(); ++i) {
     open[waiting++] = {i, breakPoints_[i], breakPoints_[i + 1]};
     while (waiting > 0) {
@@ -149,9 +154,16 @@ void EdgeTree::select(const Fineness& fineness, double longest, std::vector<Edge
             fineness.tolerance(node->middle, 0.5 * node->chord + node->error) * allowed;
         // A closed edge of fewer samples would enclose nothing.
         const bool isRound = isClosed && node->b - node->a > 0.3 * (e.to - e.from);
+        const bool isAnyway = node->isForced || isRound || node->turn > fineness.angle() * allowed;
         isHalved =
-            !node->isFrozen && (node->isForced || isRound || node->error > tolerance ||
-                                node->turn > fineness.angle() * allowed || node->chord > longest);
+            !node->isFrozen && (isAnyway || node->error > tolerance || node->chord > longest);
+        if (!isHalved && !node->isFrozen) {
+          settled.leafError = std::max(settled.leafError, node->error);
+          settled.leafChord = std::max(settled.leafChord, node->chord);
+        } else if (isHalved && !isAnyway) {
+          double& least = node->error > tolerance ? settled.halvedError : settled.halvedChord;
+          least = std::min(least, node->error > tolerance ? node->error : node->chord);
+        }
       }
       node->isHalved = isHalved;
       if (!isHalved) {
@@ -165,9 +177,22 @@ void EdgeTree::select(const Fineness& fineness, double longest, std::vector<Edge
     }
   }
   samples.push_back({e.to, breakPoints_.back(), kNone});
+  settled_ = settled;
+}
+
+bool EdgeTree::isSettled(const Fineness& fineness, double longest) const {
+  const Settled& s = settled_;
+  if (!s.isSo || s.angle != fineness.angle() || s.hysteresis != fineness.hysteresis()) return false;
+  const auto stays = [](double least, double allowed) {
+    return least == Sampling::kNoLimit || least > allowed;
+  };
+  if (s.leafChord > longest || !stays(s.halvedChord, longest)) return false;
+  const Fineness::Range allowed = fineness.range(middle_, radius_);
+  return s.leafError <= allowed.least && stays(s.halvedError, s.hysteresis * allowed.greatest);
 }
 
 bool EdgeTree::freeze(uint32_t node) {
+  settled_ = {};
   const auto relax = [&](uint32_t n) {
     if (nodes_[n].isForced) --forced_;
     nodes_[n].isForced = false;
@@ -190,11 +215,25 @@ bool EdgeTree::overshoots(uint32_t node, uint32_t other) const {
                      [&](double t) { return a.b <= t && t <= b.a; });
 }
 
-bool EdgeTree::force(uint32_t node) {
+bool EdgeTree::canHalve(uint32_t node) const {
   const ModelEdge& e = model_->edges[edge_];
-  if (nodes_[node].isFrozen) return false;
-  if (e.isDegenerate || nodes_[node].b - nodes_[node].a <= 2 * kShortest * (e.to - e.from))
-    return false;
+  return !nodes_[node].isFrozen && !e.isDegenerate &&
+         nodes_[node].b - nodes_[node].a > 2 * kShortest * (e.to - e.from);
+}
+
+bool EdgeTree::raise(uint32_t node, const Fineness& fineness) {
+  if (!canHalve(node)) return false;
+  settled_ = {};
+  Node& n = nodes_[node];
+  const double tolerance = fineness.tolerance(n.middle, 0.5 * n.chord + n.error);
+  if (tolerance == Sampling::kNoLimit) return force(node);
+  n.error = std::max(n.error, 1.001 * tolerance);
+  return true;
+}
+
+bool EdgeTree::force(uint32_t node) {
+  if (!canHalve(node)) return false;
+  settled_ = {};
   if (!nodes_[node].isForced) ++forced_;
   nodes_[node].isForced = true;
   return true;

@@ -29,9 +29,16 @@ class EdgeTree {
   /// The samples in order of the parameter, both ends included. Two for a degenerate edge.
   ///   longest  most length of an interval
   void select(const Fineness& fineness, double longest, std::vector<EdgeSample>& samples);
+  /// Whether another selection would be the one before. It may say no though it would.
+  bool isSettled(const Fineness& fineness, double longest) const;
+  /// The last selection was thrown away.
+  void unsettle() { settled_ = {}; }
   /// Halves an interval from now on, whatever the tolerance. False if it is too short to be halved: its curve is the
   /// culprit, not its samples.
   bool force(uint32_t node);
+  /// Halves an interval for as long as no more is allowed than now: the surface of a face is off there, though the edge is not.
+  /// False as above.
+  bool raise(uint32_t node, const Fineness& fineness);
   /// Where a curve crosses itself, no halving helps: takes an interval, and with it what was halved by force around it, back to
   /// the one above, from now on. False at the top.
   bool freeze(uint32_t node);
@@ -56,7 +63,17 @@ class EdgeTree {
     bool isHalved = false;  // at the last selection
   };
 
+  /// When the last selection stays as it is.
+  struct Settled {
+    bool isSo = false;
+    double angle = 0, hysteresis = 1;
+    double leafError = 0, leafChord = 0;  // the largest of intervals that are not halved
+    // The least of those that are halved for that reason.
+    double halvedError = Sampling::kNoLimit, halvedChord = Sampling::kNoLimit;
+  };
+
   Vec3 at(double t) const;
+  bool canHalve(uint32_t node) const;
   uint32_t spansBetween(double a, double b) const;
   uint32_t add(double a, Vec3 from, double b, Vec3 to);
   void halve(uint32_t node, Vec3 from, Vec3 to);
@@ -67,6 +84,9 @@ class EdgeTree {
   std::vector<Vec3> breakPoints_;
   std::vector<Node> nodes_;  // the first are the intervals between breaks
   uint32_t forced_ = 0;
+  Vec3 middle_{};  // of a ball around the edge
+  double radius_ = 0;
+  Settled settled_;
 };
 
 }  // namespace sf

@@ -120,7 +120,7 @@ struct FaceMesher::State {
   FaceMesh* mesh = nullptr;
   Density* density = nullptr;
   Allowance allowance;
-  bool updates = false;
+  bool updates = false, acceptsEdges = false;
   std::vector<double> us, vs, localUs, localVs, gridAt, gridNormals, centers, centerNormals;
   std::vector<uint8_t> isNewU, isNewV;  // [cells] whether the interval was none before
   std::vector<FaceMesh::Strip> gridStrips;
@@ -159,7 +159,7 @@ struct FaceMesher::State {
   bool patchBand();
   void findChanges(std::vector<Box2>& changed) const;
   FaceProblem refineBand();
-  bool edgeIsOff(uint32_t from, uint32_t to, FaceProblem& problem);
+  void noteIfOff(uint32_t from, uint32_t to, FaceProblem& problem);
   void improveAngles();
   Point2 splitOf(uint32_t a, uint32_t b, double& share) const;
   double deviationAt(Point2 uv, Vec3 at) const;
@@ -781,22 +781,22 @@ bool FaceMesher::State::patchBand() {
   return true;
 }
 
-/// Whether the edge of the model from one vertex to the next of a ring is off the surface in its middle.
-bool FaceMesher::State::edgeIsOff(uint32_t from, uint32_t to, FaceProblem& problem) {
+/// Notes the edge of the model from one vertex to the next of a ring if the surface is off it.
+void FaceMesher::State::noteIfOff(uint32_t from, uint32_t to, FaceProblem& problem) {
   if (ringOf.empty()) {
     ringOf.assign(mesh->positions.size(), kNone);
     for (uint32_t i = 0; i < rings.vertex.size(); ++i) ringOf[rings.vertex[i]] = i;
   }
   const uint32_t i = from < ringOf.size() ? ringOf[from] : kNone;
-  if (i == kNone) return false;
+  if (i == kNone) return;
   const size_t ring =
       size_t(std::upper_bound(rings.starts.begin(), rings.starts.end(), i) - rings.starts.begin());
   const uint32_t next = i + 1 == rings.starts[ring] ? rings.starts[ring - 1] : i + 1;
-  if (rings.vertex[next] != to) return false;
+  if (rings.vertex[next] != to) return;
   const uint32_t use = rings.use[i], sample = rings.sample[i];
   const std::vector<EdgeSample>& of = samples->of[model.uses[use].edge];
   const ModelEdge& edge = model.edges[model.uses[use].edge];
-  if (of[sample + 1].t - of[sample].t < kShortInterval * (edge.to - edge.from)) return false;
+  if (of[sample + 1].t - of[sample].t < kShortInterval * (edge.to - edge.from)) return;
   bool isOff = false;
   for (const double share : {0.25, 0.5, 0.75}) {
     const Point2 uv =
@@ -804,10 +804,7 @@ bool FaceMesher::State::edgeIsOff(uint32_t from, uint32_t to, FaceProblem& probl
     const Vec3 chord = of[sample].at + share * (of[sample + 1].at - of[sample].at);
     isOff |= deviationAt(uv, chord) > allowance.at(uv) + edge.tolerance;
   }
-  if (!isOff) return false;
-  problem.kind = FaceProblem::Kind::EdgeOff;
-  problem.use = use, problem.sample = sample;
-  return true;
+  if (isOff) problem.off.push_back({use, sample});
 }
 
 /// Where an edge of the band is to be looked at and divided: where it crosses a crease, or in the middle.
@@ -829,7 +826,7 @@ Point2 FaceMesher::State::splitOf(uint32_t a, uint32_t b, double& share) const {
 /// Adds points inside until triangles of the band are near the surface.
 FaceProblem FaceMesher::State::refineBand() {
   FaceProblem ended, off;
-  ended.kind = FaceProblem::Kind::Ended;
+  ended.kind = FaceProblem::Kind::Ended, off.kind = FaceProblem::Kind::EdgeOff;
   ringOf.clear();
   band.unused.clear(), band.edgeFrom.clear();
   bandAt.resize(mesh->positions.size());
@@ -908,9 +905,10 @@ FaceProblem FaceMesher::State::refineBand() {
       }
       spots.push_back(worst);
       // Points inside are of no use where it is the edge that is off.
-      for (uint32_t k = 0; k < 3 && !worst.onEdge; ++k)
-        if (band.twins[3 * t + k] == kNone && edgeIsOff(c[k], c[(k + 1) % 3], off)) return off;
+      for (uint32_t k = 0; k < 3 && !worst.onEdge && !acceptsEdges; ++k)
+        if (band.twins[3 * t + k] == kNone) noteIfOff(c[k], c[(k + 1) % 3], off);
     }
+    if (!off.off.empty()) return off;
     if (spots.empty() || bandAt.size() > mostVertices || round + 1 == kMostRounds) break;
     if (!work->tick(400 * spots.size() + 300 * triangles)) return ended;
     for (const Spot& spot : spots) {
@@ -1072,11 +1070,11 @@ void FaceMesher::State::finish() {
 
 FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& density,
                             Density::Lines& lines, const Allowance& allowance, bool updates,
-                            Work& work, FaceMesh& mesh) {
+                            bool acceptsEdges, Work& work, FaceMesh& mesh) {
   State& s = *state_;
   s.work = &work;
   s.density = &density, s.allowance = allowance;
-  s.updates = updates && !mesh.band.empty();
+  s.updates = updates && !mesh.band.empty(), s.acceptsEdges = acceptsEdges;
   s.begin(face, samples, mesh);
   mesh.deviation = mesh.excess = 0;
   const auto positive = [](double x) { return x > 0 && std::isfinite(x) ? x : 1; };

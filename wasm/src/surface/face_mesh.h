@@ -64,12 +64,17 @@ struct EdgeSamples {
 
 /// What keeps a face from being meshed.
 struct FaceProblem {
-  // EdgeOff: an edge has a bend that was not seen when it was measured; it needs one sample more.
+  // EdgeOff: the surface is off an edge, as where it has a bend that was not seen; it needs more samples.
   enum class Kind { None, Crossing, EdgeOff, Ended } kind = Kind::None;
   // The uses, counted in the model, and the sample in each where the interval at fault begins.
   SurfaceFault fault = SurfaceFault::Degenerate;
   uint32_t use = kNone, sample = kNone, otherUse = kNone, otherSample = kNone;
   uint32_t loop = kNone, otherLoop = kNone;  // counted in the face
+  // Of EdgeOff: all such intervals.
+  struct Interval {
+    uint32_t use, sample;
+  };
+  std::vector<Interval> off;
 };
 
 class FaceMesher {
@@ -79,10 +84,11 @@ class FaceMesher {
 
   /// Meshes a face. `lines` may be refined where the grid is measured to be off.
   ///   allowance  most distance of mesh and surface
+  ///   acceptsEdges  edges are not told to be off: no more samples are to be had
   ///   mesh       with `updates` that of an earlier run, of which whatever still fits stays; after a problem it is empty
   FaceProblem run(uint32_t face, const EdgeSamples& samples, Density& density,
-                  Density::Lines& lines, const Allowance& allowance, bool updates, Work& work,
-                  FaceMesh& mesh);
+                  Density::Lines& lines, const Allowance& allowance, bool updates,
+                  bool acceptsEdges, Work& work, FaceMesh& mesh);
 
   /// Forgets the places of a use in the domain, when its curve or its edge has become another one.
   void forget(uint32_t use);

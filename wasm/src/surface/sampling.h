@@ -63,6 +63,21 @@ class Fineness {
     const double nearest = std::fmax(w - radius * lengths_[3], near_);
     return std::fmin(sampling_.tolerance, sampling_.pixels * nearest / perPixel_);
   }
+  /// The least and the greatest of a ball's places; the latter is infinite where the picture does not show all of it.
+  struct Range {
+    double least, greatest;
+  };
+  Range range(Vec3 middle, double radius) const {
+    if (!sampling_.camera) return {sampling_.tolerance, sampling_.tolerance};
+    const Camera& c = *sampling_.camera;
+    Range range{tolerance(middle, radius), Sampling::kNoLimit};
+    const double w = c.row(3, middle);
+    for (int i = 0; i < 3; ++i)
+      if (w - std::fabs(c.row(i, middle)) < radius * (lengths_[i] + lengths_[3])) return range;
+    range.greatest =
+        std::fmin(sampling_.tolerance, sampling_.pixels * (w + radius * lengths_[3]) / perPixel_);
+    return range;
+  }
   double angle() const { return sampling_.angle; }
   double aspect() const { return sampling_.aspect; }
   double hysteresis() const { return sampling_.hysteresis; }

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace sf {
 namespace {
 
 /// The sampling at which loops are checked when a model is opened, in its diagonal.
 constexpr double kCheckTolerance = 1e-3;
-/// Room for faces to grow, as a share of what they have.
-constexpr double kSlack = 0.5;
 
 Box2 boxOf(const Model& model, uint32_t face, const EdgeSamples& samples) {
   const BezierSpans &u = model.faces[face].surface->u(), &v = model.faces[face].surface->v();
@@ -47,6 +46,7 @@ void TrimmedSurfaces::numberPlaces() {
 
 /// Chooses the samples of an edge. Whether they are others than before.
 bool TrimmedSurfaces::selectEdge(uint32_t edge, const Fineness& fineness) {
+  if (trees_[edge]->isSettled(fineness, longest_[edge])) return false;
   std::vector<EdgeSample>& of = samples_.of[edge];
   std::vector<EdgeSample>& before = samplesBefore_;
   before.clear();
@@ -74,7 +74,6 @@ bool TrimmedSurfaces::settle(uint32_t face, const FaceProblem& problem, bool may
   };
   const uint32_t firstLoop = model_.faces[face].firstLoop;
   if (problem.use != kNone) halve(problem.use, problem.sample);
-  if (problem.kind == FaceProblem::Kind::EdgeOff) return isHalved;
   if (problem.otherUse != kNone) halve(problem.otherUse, problem.otherSample);
   const bool isWhole = problem.use == kNone || problem.fault == SurfaceFault::Degenerate;
   if (isWhole && problem.loop != kNone && problem.fault == SurfaceFault::Degenerate) {
@@ -119,6 +118,16 @@ bool TrimmedSurfaces::settle(uint32_t face, const FaceProblem& problem, bool may
     std::swap(fault.loop, fault.otherLoop);
   if (problem.fault == SurfaceFault::HoleOutside) fault.otherLoop = kNone;
   return false;
+}
+
+/// Halves the intervals of edges that their surface is off. False if none can be halved.
+bool TrimmedSurfaces::raiseOff(const FaceProblem& problem, const Fineness& fineness,
+                               std::vector<uint32_t>& touched) {
+  for (const FaceProblem::Interval& at : problem.off) {
+    const uint32_t edge = model_.uses[at.use].edge;
+    if (trees_[edge]->raise(samples_.of[edge][at.sample].node, fineness)) touched.push_back(edge);
+  }
+  return !touched.empty();
 }
 
 void TrimmedSurfaces::leaveOut(uint32_t face, const ModelFault& fault) {
@@ -279,10 +288,12 @@ bool TrimmedSurfaces::meshFaces(const Sampling& sampling, bool updates, Work& wo
   const double total = double(open.size());
   size_t done = 0;
   std::vector<uint32_t> touched;
+  bool acceptsEdges = false;
   while (!open.empty()) {
     const uint32_t f = open.back();
     const FaceProblem problem = mesher_->run(f, samples_, densities_[f], lines_[f], allowances_[f],
-                                             updates, work, meshes_[f]);
+                                             updates, acceptsEdges, work, meshes_[f]);
+    acceptsEdges = false;
     if (problem.kind == FaceProblem::Kind::Ended) return false;
     if (problem.kind == FaceProblem::Kind::None) {
       open.pop_back(), isOpen[f] = 0, isEdited_[f] = 0;
@@ -292,7 +303,8 @@ bool TrimmedSurfaces::meshFaces(const Sampling& sampling, bool updates, Work& wo
     }
     ModelFault fault{};
     touched.clear();
-    if (settle(f, problem, true, touched, fault)) {
+    const bool isOff = problem.kind == FaceProblem::Kind::EdgeOff;
+    if (isOff ? raiseOff(problem, fineness, touched) : settle(f, problem, true, touched, fault)) {
       for (const uint32_t e : touched) {
         selectEdge(e, fineness);
         // The other faces of the edge have to follow.
@@ -304,6 +316,8 @@ bool TrimmedSurfaces::meshFaces(const Sampling& sampling, bool updates, Work& wo
         }
       }
       numberPlaces();
+    } else if (isOff) {
+      acceptsEdges = true;
     } else {
       leaveOut(f, fault);
       open.pop_back(), isOpen[f] = 0;
@@ -312,57 +326,69 @@ bool TrimmedSurfaces::meshFaces(const Sampling& sampling, bool updates, Work& wo
   return true;
 }
 
-/// The first vertex at the place of each, and the vertices along edges.
-void TrimmedSurfaces::findSame(Tessellation& result) const {
+/// Finds the first vertex at the place of each anew, for faces that have changed and those beside them, and the vertices along
+/// edges.
+void TrimmedSurfaces::findSame(const std::vector<uint32_t>& faces, Tessellation& result) {
   const std::vector<uint32_t>& bases = layout_.vertexStarts;
-  result.same.resize(bases.back());
-  for (uint32_t v = 0; v < bases.back(); ++v) result.same[v] = v;
-  std::vector<uint32_t> firstAt(samples_.places, kNone);
-  for (uint32_t f = 0; f < meshes_.size(); ++f) {
-    const FaceMesh& mesh = meshes_[f];
-    for (size_t k = 0; k + 1 < mesh.useStarts.size(); ++k) {
-      const ModelUse& use = model_.uses[model_.loops[model_.faces[f].firstLoop].firstUse + k];
-      const ModelEdge& edge = model_.edges[use.edge];
-      const uint32_t count = mesh.useStarts[k + 1] - mesh.useStarts[k];
-      for (uint32_t i = 0; i < count; ++i) {
-        const uint32_t s = use.isReversed ? count - 1 - i : i;
-        const uint32_t place = s == 0           ? edge.fromVertex
-                               : s + 1 == count ? edge.toVertex
-                                                : samples_.firstPlace[use.edge] + s - 1;
-        const uint32_t v = bases[f] + mesh.useVertices[mesh.useStarts[k] + i];
-        firstAt[place] = std::min(firstAt[place], v);
+  const auto placeOf = [&](const ModelUse& use, uint32_t u) {
+    return u - model_.loops[model_.faces[use.face].firstLoop].firstUse;
+  };
+  // Not so of faces left out, and when time was over before a face could follow its edges.
+  const auto isMeshed = [&](uint32_t u) {
+    const ModelUse& use = model_.uses[u];
+    const std::vector<uint32_t>& starts = meshes_[use.face].useStarts;
+    const uint32_t k = placeOf(use, u);
+    return k + 1 < starts.size() && starts[k + 1] - starts[k] == samples_.of[use.edge].size();
+  };
+  // The vertex of a use at a sample of its edge.
+  const auto vertexOf = [&](uint32_t u, uint32_t sample) {
+    const ModelUse& use = model_.uses[u];
+    const FaceMesh& mesh = meshes_[use.face];
+    const uint32_t k = placeOf(use, u);
+    const uint32_t place =
+        use.isReversed ? mesh.useStarts[k + 1] - 1 - sample : mesh.useStarts[k] + sample;
+    return bases[use.face] + mesh.useVertices[place];
+  };
+  const auto eachUse = [&](uint32_t edge, auto&& look) {
+    for (uint32_t i = firstUses_[edge]; i < firstUses_[edge + 1]; ++i)
+      if (isMeshed(usesOf_[i])) look(usesOf_[i]);
+  };
+  const uint32_t before = uint32_t(same_.size());
+  same_.resize(layout_.vertices());
+  for (uint32_t v = before; v < same_.size(); ++v) same_[v] = v;
+  std::vector<uint8_t> isDone(model_.edges.size(), 0);
+  for (const uint32_t f : faces)
+    for (uint32_t v = 0; v < meshes_[f].positions.size(); ++v) same_[bases[f] + v] = bases[f] + v;
+  for (const uint32_t f : faces)
+    for (const uint32_t e : edgesOf(f)) {
+      // Faces left out may name edges that there are none of.
+      if (e >= isDone.size() || isDone[e] || samples_.of[e].size() < 3) continue;
+      isDone[e] = 1;
+      for (uint32_t s = 1; s + 1 < samples_.of[e].size(); ++s) {
+        uint32_t first = kNone;
+        eachUse(e, [&](uint32_t u) { first = std::min(first, vertexOf(u, s)); });
+        eachUse(e, [&](uint32_t u) { same_[vertexOf(u, s)] = first; });
       }
     }
-  }
-  for (uint32_t f = 0; f < meshes_.size(); ++f) {
-    const FaceMesh& mesh = meshes_[f];
-    for (size_t k = 0; k + 1 < mesh.useStarts.size(); ++k) {
-      const ModelUse& use = model_.uses[model_.loops[model_.faces[f].firstLoop].firstUse + k];
-      const ModelEdge& edge = model_.edges[use.edge];
-      const uint32_t count = mesh.useStarts[k + 1] - mesh.useStarts[k];
-      for (uint32_t i = 0; i < count; ++i) {
-        const uint32_t s = use.isReversed ? count - 1 - i : i;
-        const uint32_t place = s == 0           ? edge.fromVertex
-                               : s + 1 == count ? edge.toVertex
-                                                : samples_.firstPlace[use.edge] + s - 1;
-        result.same[bases[f] + mesh.useVertices[mesh.useStarts[k] + i]] = firstAt[place];
-      }
-    }
-  }
+  // At the ends of edges all faces meet.
+  std::vector<uint32_t> firstAt(model_.vertices, kNone);
+  const auto eachEnd = [&](auto&& look) {
+    for (uint32_t e = 0; e < model_.edges.size(); ++e)
+      eachUse(e, [&](uint32_t u) {
+        look(model_.edges[e].fromVertex, vertexOf(u, 0));
+        look(model_.edges[e].toVertex, vertexOf(u, uint32_t(samples_.of[e].size()) - 1));
+      });
+  };
+  eachEnd([&](uint32_t place, uint32_t v) { firstAt[place] = std::min(firstAt[place], v); });
+  eachEnd([&](uint32_t place, uint32_t v) { same_[v] = firstAt[place]; });
+  result.same = same_;
   // Edges: along the first use that is there.
   result.edges.clear(), result.edgeStarts.assign(1, 0);
   for (uint32_t e = 0; e < model_.edges.size(); ++e) {
-    for (uint32_t i = firstUses_[e]; i < firstUses_[e + 1] && !model_.edges[e].isDegenerate; ++i) {
-      const ModelUse& use = model_.uses[usesOf_[i]];
-      const FaceMesh& mesh = meshes_[use.face];
-      if (mesh.useStarts.empty()) continue;
-      const uint32_t k = usesOf_[i] - model_.loops[model_.faces[use.face].firstLoop].firstUse;
-      for (uint32_t v = mesh.useStarts[k]; v < mesh.useStarts[k + 1]; ++v)
-        result.edges.push_back(bases[use.face] + mesh.useVertices[v]);
-      if (use.isReversed)
-        std::reverse(result.edges.begin() + result.edgeStarts.back(), result.edges.end());
-      break;
-    }
+    uint32_t first = kNone;
+    if (!model_.edges[e].isDegenerate) eachUse(e, [&](uint32_t u) { first = std::min(first, u); });
+    for (uint32_t s = 0; first != kNone && s < samples_.of[e].size(); ++s)
+      result.edges.push_back(vertexOf(first, s));
     result.edgeStarts.push_back(uint32_t(result.edges.size()));
   }
 }
@@ -395,10 +421,9 @@ bool TrimmedSurfaces::fewEnough(const Sampling& given, const TessellationLimits&
 }
 
 void TrimmedSurfaces::tell(const Sampling& sampling, double factor, bool isOver,
-                           Tessellation& result) const {
+                           Tessellation& result) {
   result.origin = 0.5 * (model_.least + model_.greatest);
   result.tolerance = sampling.tolerance;
-  findSame(result);
   for (const FaceMesh& mesh : meshes_)
     result.deviation = std::max(result.deviation, mesh.deviation);
   for (const ModelFault& fault : faults_)
@@ -427,8 +452,10 @@ bool TrimmedSurfaces::tessellate(const Sampling& given, const TessellationLimits
   if (!isDone && !isOver) return false;
   result = {};
   isMeshed_ = isDone;
-  layout_.layOut(meshes_, isReversed_, 0.5 * (model_.least + model_.greatest), 0);
+  layout_.layOut(meshes_, isReversed_, 0.5 * (model_.least + model_.greatest));
   for (uint32_t f = 0; f < meshes_.size(); ++f) result.faces.push_back(f);
+  same_.clear();
+  findSame(result.faces, result);
   tell(used, factor, isOver, result);
   return true;
 }
@@ -447,8 +474,14 @@ bool TrimmedSurfaces::update(const Sampling& given, const TessellationLimits& li
   isMeshed_ = isDone;
   for (uint32_t f = 0; f < meshes_.size(); ++f)
     if (isChanged_[f]) result.faces.push_back(f);
-  if (!layout_.rewrite(meshes_, isReversed_, result.faces))
-    layout_.layOut(meshes_, isReversed_, 0.5 * (model_.least + model_.greatest), kSlack);
+  if (layout_.rewrite(meshes_, isReversed_, result.faces)) {
+    findSame(result.faces, result);
+  } else {
+    std::vector<uint32_t> all(meshes_.size());
+    std::iota(all.begin(), all.end(), 0);
+    same_.clear();
+    findSame(all, result);
+  }
   tell(used, factor, isOver, result);
   return true;
 }
@@ -480,6 +513,9 @@ void TrimmedSurfaces::replant(uint32_t face, ArrayView<const uint32_t> edges) {
           trees_[e]->end(end);
     samples_.of[e].clear();
   }
+  // Edges that end at a vertex that has moved.
+  for (const auto& tree : trees_)
+    if (tree) tree->unsettle();
   densities_[face] = Density(*model_.faces[face].surface, boxOf(model_, face, samples_));
 }
 
@@ -506,7 +542,8 @@ bool TrimmedSurfaces::checkAgain(uint32_t face, Work& work, ModelFault& fault) {
   // With the samples of the check the box around the face is known.
   if (isRight)
     densities_[face] = Density(*model_.faces[face].surface, boxOf(model_, face, samples_));
-  for (size_t i = 0; i < edges.size(); ++i) samples_.of[edges[i]].swap(before[i]);
+  for (size_t i = 0; i < edges.size(); ++i)
+    samples_.of[edges[i]].swap(before[i]), trees_[edges[i]]->unsettle();
   numberPlaces();
   return isRight;
 }

@@ -52,8 +52,8 @@ class TrimmedSurfaces {
   /// Tessellates from scratch; the mesh is then in layout(). False once the work has ended, but not by the limit of time.
   bool tessellate(const Sampling& sampling, const TessellationLimits& limits, Work& work,
                   Tessellation& result);
-  /// Makes the mesh one of another sampling, from what there is. Vertices that stay keep their numbers, unless all is laid out
-  /// again, as when a face outgrows its block; the ranges of layout() tell.
+  /// Makes the mesh one of another sampling, from what there is. Vertices that stay keep their numbers, unless their face
+  /// outgrows its block or all is laid out again; the ranges of layout() tell.
   bool update(const Sampling& sampling, const TessellationLimits& limits, Work& work,
               Tessellation& result);
   const MeshLayout& layout() const { return layout_; }
@@ -75,13 +75,15 @@ class TrimmedSurfaces {
   bool selectEdge(uint32_t edge, const Fineness& fineness);
   bool settle(uint32_t face, const FaceProblem& problem, bool mayFreeze,
               std::vector<uint32_t>& touched, ModelFault& fault);
+  bool raiseOff(const FaceProblem& problem, const Fineness& fineness,
+                std::vector<uint32_t>& touched);
   void leaveOut(uint32_t face, const ModelFault& fault);
   bool meshFaces(const Sampling& sampling, bool updates, Work& work);
   void chooseAll(const Sampling& sampling, const Fineness& fineness, bool updates);
   bool fewEnough(const Sampling& given, const TessellationLimits& limits, bool updates, Work& work,
                  Sampling& used, double& factor);
-  void tell(const Sampling& sampling, double factor, bool isOver, Tessellation& result) const;
-  void findSame(Tessellation& result) const;
+  void tell(const Sampling& sampling, double factor, bool isOver, Tessellation& result);
+  void findSame(const std::vector<uint32_t>& faces, Tessellation& result);
   void numberPlaces();
   void plantTree(uint32_t edge);
   void replant(uint32_t face, ArrayView<const uint32_t> edges);
@@ -104,6 +106,7 @@ class TrimmedSurfaces {
   std::vector<uint8_t> isReversed_, isChanged_;  // [faces]
   std::unique_ptr<FaceMesher> mesher_;
   MeshLayout layout_;
+  std::vector<uint32_t> same_;  // [vertices of the layout]
   bool isMeshed_ = false;
   std::vector<uint8_t> isEdited_;             // [faces] since they were meshed
   std::vector<ModelFault> faults_;            // of faces left out
