@@ -16,7 +16,9 @@ namespace {
 
 /// Corners of one vertex within this share of the domain are one.
 constexpr double kSameCorner = 1e-6;
-constexpr int kMostRefinings = 8, kMostRounds = 64;
+constexpr int kMostRefinings = 12, kMostRounds = 64;
+/// A band whose vertices have become so many times as many is left as it is: refining does not seem to help.
+constexpr size_t kMostAdded = 16;
 /// An edge that crosses a crease nearer to one of its ends than this, as a share of it, ends there.
 constexpr double kNearEnd = 1e-3;
 /// Shorter intervals of an edge, as a share of it, are not halved because its surface is off.
@@ -844,7 +846,7 @@ FaceProblem FaceMesher::State::refineBand() {
   for (size_t t = 0; t < bandOff.size(); ++t)
     if (isFresh[t] || (bandOff[t] > allowance.least() && bandOff[t] > allowedIn(t)))
       known[3 * t] = kNone;
-  const size_t mostVertices = 64 + 4 * bandAt.size();
+  const size_t mostVertices = kMostAdded * (64 + bandAt.size());
   struct Spot {
     uint32_t half;  // of the triangle, or of the edge
     uint32_t corners[3];
@@ -1093,9 +1095,11 @@ FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& 
     if (problem.kind == FaceProblem::Kind::None) {
       problem = s.refineBand();
       if (problem.kind == FaceProblem::Kind::None) s.finish();
-      // All of it at one place, or along a line.
-      if (problem.kind == FaceProblem::Kind::None && mesh.triangles.empty())
+      // All of it at one place, or along a line: perhaps for want of samples.
+      if (problem.kind == FaceProblem::Kind::None && mesh.triangles.empty()) {
         problem.kind = FaceProblem::Kind::Crossing, problem.fault = SurfaceFault::Degenerate;
+        problem.loop = 0;
+      }
       if (!work.going()) problem.kind = FaceProblem::Kind::Ended;
     }
   }
