@@ -174,7 +174,7 @@ class ModelReader {
   bool read();
   void findBox();
   void checkSize();
-  void addLoops();
+  void runAroundDomains();
   void countUses();
   void findPoints();
   void findCurves();
@@ -188,7 +188,8 @@ class ModelReader {
   void readUse(ModelUse& use, uint32_t place, uint32_t loopInFace);
   void fail(SurfaceFault fault, uint32_t face, uint32_t loop = kNone, uint32_t use = kNone,
             uint32_t edge = kNone);
-  void addLoop(uint32_t face);
+  bool appendDomain(uint32_t face);
+  void runAroundDomain(uint32_t face, const ModelLoop& loop);
   bool isPoint(const ModelEdge& edge, const ModelUse& use);
   bool checkUse(uint32_t use);
   void failUse(SurfaceFault fault, uint32_t use);
@@ -276,7 +277,7 @@ void ModelReader::readFace(ModelFace& face, uint32_t number) {
       low = lowest(low, {at[i], at[i + 1], at[i + 2]}),
       high = highest(high, {at[i], at[i + 1], at[i + 2]});
   }
-  if (loops > 0 && (outer == 0 || outer > loops)) fail(SurfaceFault::Degenerate, number);
+  if (outer > loops) fail(SurfaceFault::Degenerate, number);
   if (!in_.holds(loops)) return void(in_.fits = false);
   for (uint32_t l = 0; l < loops && in_.fits; ++l) {
     ModelLoop loop;
@@ -295,7 +296,22 @@ void ModelReader::readFace(ModelFace& face, uint32_t number) {
     loop.endUse = uint32_t(m_.uses.size());
     if (!push(m_.loops, loop, charge_)) in_.fits = false;
   }
+  if (outer == 0 && !appendDomain(number)) in_.fits = false;
   face.endLoop = uint32_t(m_.loops.size());
+}
+
+/// A loop around the domain of a face without an outer one, after those given. Its edges come once the model's size is known.
+bool ModelReader::appendDomain(uint32_t number) {
+  ModelLoop loop;
+  loop.face = number, loop.isOuter = loop.isDomain = true;
+  loop.firstUse = uint32_t(m_.uses.size()), loop.endUse = loop.firstUse + 4;
+  for (int k = 0; k < 4; ++k) {
+    ModelUse use;
+    use.face = number, use.loop = uint32_t(m_.loops.size());
+    if (!grow(m_.uses, charge_)) return false;
+    m_.uses.push_back(std::move(use));
+  }
+  return push(m_.loops, loop, charge_);
 }
 
 void ModelReader::readUse(ModelUse& use, uint32_t place, uint32_t loopInFace) {
@@ -364,10 +380,9 @@ void ModelReader::checkSize() {
   for (uint32_t f = 0; f < m_.faces.size(); ++f) fail(SurfaceFault::Degenerate, f);
 }
 
-/// A loop around the domain of a face that has none.
-void ModelReader::addLoop(uint32_t number) {
-  ModelFace& face = m_.faces[number];
-  const NurbsSurface& s = *face.surface;
+/// Leads the loop around the domain of a face along its sides.
+void ModelReader::runAroundDomain(uint32_t number, const ModelLoop& loop) {
+  const NurbsSurface& s = *m_.faces[number].surface;
   const BezierSpans &u = s.u(), &v = s.v();
   const double u0 = u.breaks()[0], u1 = u.breaks()[u.count()], v0 = v.breaks()[0],
                v1 = v.breaks()[v.count()];
@@ -382,14 +397,9 @@ void ModelReader::addLoop(uint32_t number) {
       if (!holds(double(i) / looks)) return false;
     return true;
   };
-  face.firstLoop = uint32_t(m_.loops.size());
-  ModelLoop loop;
-  loop.face = number, loop.isOuter = true;
-  loop.firstUse = uint32_t(m_.uses.size());
   uint32_t edges[4];
   for (int k = 0; k < 4; ++k) {
-    ModelUse use;
-    use.face = number, use.loop = face.firstLoop;
+    ModelUse& use = m_.uses[loop.firstUse + k];
     const Point2 a = corners[k], b = corners[(k + 1) & 3];
     // The third side runs backwards along the first one where the surface closes; so does the fourth along the second.
     const bool closes = k >= 2 && !m_.edges[edges[k - 2]].isDegenerate && all([&](double x) {
@@ -398,7 +408,7 @@ void ModelReader::addLoop(uint32_t number) {
     if (closes) {
       use.edge = edges[k] = edges[k - 2];
       use.isReversed = use.isSeam = true;
-      m_.uses[m_.uses.size() - 2].isSeam = true;
+      m_.uses[loop.firstUse + k - 2].isSeam = true;
       use.curve = TrimCurve(b, a, 0, 1);
     } else {
       ModelEdge edge;
@@ -409,17 +419,13 @@ void ModelReader::addLoop(uint32_t number) {
       if (!grow(m_.edges, charge_)) return;
       m_.edges.push_back(std::move(edge));
     }
-    if (!grow(m_.uses, charge_)) return;
-    m_.uses.push_back(std::move(use));
   }
-  loop.endUse = uint32_t(m_.uses.size());
-  if (!push(m_.loops, loop, charge_)) return;
-  face.endLoop = uint32_t(m_.loops.size());
 }
 
-void ModelReader::addLoops() {
-  for (uint32_t f = 0; f < m_.faces.size() && work_.going(); ++f)
-    if (!m_.faces[f].isLeftOut && m_.faces[f].firstLoop == m_.faces[f].endLoop) addLoop(f);
+void ModelReader::runAroundDomains() {
+  for (const ModelLoop& loop : m_.loops)
+    if (loop.isDomain && !m_.faces[loop.face].isLeftOut && work_.going())
+      runAroundDomain(loop.face, loop);
 }
 
 /// Whether all of an edge is one point.
@@ -590,7 +596,7 @@ bool readModel(const ModelArrays& arrays, Work& work, Charge& charge, Model& mod
   if (!reader.read()) return model = {}, false;
   reader.findBox();
   reader.checkSize();
-  reader.addLoops();
+  reader.runAroundDomains();
   reader.countUses();
   reader.findPoints();
   reader.findCurves();

@@ -117,6 +117,9 @@ bool TrimmedSurfaces::settle(uint32_t face, const FaceProblem& problem, bool may
   if (problem.fault == SurfaceFault::TrimsCross && fault.otherLoop < fault.loop)
     std::swap(fault.loop, fault.otherLoop);
   if (problem.fault == SurfaceFault::HoleOutside) fault.otherLoop = kNone;
+  // A loop that was not given is not named: what crosses it leaves the domain.
+  if (fault.otherLoop != kNone && model_.loops[firstLoop + fault.otherLoop].isDomain)
+    fault.fault = SurfaceFault::TrimOutside, fault.otherLoop = kNone;
   return false;
 }
 
