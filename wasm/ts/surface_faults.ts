@@ -12,11 +12,12 @@ const curveOf = (place: ErrorPlace): string => (isTrim(place) ? 'a curve of this
 const kMessages: Readonly<Record<Fault, (place: ErrorPlace) => string>> = {
   'bad-knots': (place) =>
     `the knots of ${curveOf(place)} must never fall, be as many as degree and poles need, and inside the domain repeat ` +
-    'at most `degree` times; the degree must be from 1 to 25',
+    'at most `degree` times, or be from 1e-50 to 1e50 apart; the degree must be from 1 to 25',
   'bad-weights': (place) => `a weight of ${curveOf(place)} is not positive, or more than 1e10 times another`,
-  'not-finite': (place) => `a number of ${curveOf(place)} is NaN, infinite or beyond 1e150`,
+  'not-finite': (place) => `a number of ${curveOf(place)} is NaN, infinite or beyond 1e150, or a place beyond 1e37`,
   'bad-edge': () =>
-    'there is no such edge, or it has neither `pcurve` nor `curve3d`, or faces share it and it has no `curve3d`',
+    'there is no such edge, or it has neither `pcurve` nor `curve3d`, or faces share it and it has no `curve3d`, or it is a seam or a ' +
+    'point and would be one no more',
   'bad-domain': () => "the edge's `range` is empty, or its curves have another domain",
   'trim-outside': () => "the trimming curve leaves the surface's domain",
   'trim-open': () => 'the trimming curve does not end where the next one of the loop begins',
@@ -24,7 +25,7 @@ const kMessages: Readonly<Record<Fault, (place: ErrorPlace) => string>> = {
   'trim-self-intersects': () => 'the loop crosses itself',
   'trims-cross': ({ otherLoop }) => `the loop crosses ${otherLoop === undefined ? 'another one' : `loop ${otherLoop}`}`,
   'hole-outside': () => 'the loop, a hole, is not inside the outer loop',
-  degenerate: ({ loop }) => (loop === undefined ? 'the face has no outer loop' : 'the loop has no area'),
+  degenerate: ({ loop }) => (loop === undefined ? 'the face has no outer loop, or all of the model is one point' : 'the loop has no area'),
 };
 
 /** "Face 3, loop 0, use 2 (edge 7)", as far as known. */

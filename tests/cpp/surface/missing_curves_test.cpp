@@ -90,6 +90,129 @@ TestSpline sphereSurface(double radius) {
   return s;
 }
 
+/// A surface of revolution around z: u from 0 to 4 around, v along a profile of points (r, z) with weights.
+TestSpline revolved(const TestSpline& profile) {
+  const TestSpline around = circle({0, 0}, 1);
+  TestSpline s{2, around.knots, {}, {}, profile.degree, profile.knots};
+  for (size_t k = 0; k < 9; ++k)
+    for (size_t i = 0; i < profile.poles.size() / 2; ++i) {
+      const double r = profile.poles[2 * i];
+      s.poles.insert(s.poles.end(), {r * around.poles[2 * k], r * around.poles[2 * k + 1],
+                                     profile.poles[2 * i + 1]});
+      s.weights.push_back(around.weights[k] * (profile.weights.empty() ? 1 : profile.weights[i]));
+    }
+  return s;
+}
+
+/// A ring around z: closed in u, and in v, both from 0 to 4.
+TestSpline ring(double radius, double thickness) {
+  return revolved(circle({radius, 0}, thickness));
+}
+
+/// A cone around z of height 1, whose tip is the side v = 1.
+TestSpline cone(double radius) { return revolved(segment({radius, 0}, {0, 1})); }
+
+NurbsSurface surfaceOf(const TestSpline& s) {
+  return NurbsSurface({{s.degree, s.knots}, {s.degreeV, s.knotsV}, s.poles, s.weights});
+}
+
+/// A way in the domain, and beyond where the surface closes.
+struct Way {
+  Point2 from, to;
+  double bend = 0;  // how far it sways to its left, in its length
+
+  Point2 at(double t) const {
+    const double off = bend * std::sin(4 * t);
+    return {from.x + t * (to.x - from.x) - off * (to.y - from.y),
+            from.y + t * (to.y - from.y) + off * (to.x - from.x)};
+  }
+  Point2 derivative(double t) const {
+    const double off = 4 * bend * std::cos(4 * t);
+    return {to.x - from.x - off * (to.y - from.y), to.y - from.y + off * (to.x - from.x)};
+  }
+};
+
+double within(double x, double from, double to, double period) {
+  if (period > 0) x -= period * std::floor((x - from) / period);
+  return std::clamp(x, from, to);
+}
+
+/// The curve of space that runs along a way on a surface, in so many cubic pieces from 0 to 1 that it is off by rounding alone.
+///   period  of u and v, or 0
+TestSpline onSurface(const NurbsSurface& surface, const Way& way, Point2 period) {
+  constexpr int kPieces = 1024;
+  const ArrayView<const double> u = surface.u().breaks(), v = surface.v().breaks();
+  // Where it crosses breaks, beyond seams too, a piece ends.
+  std::vector<double> stops{0};
+  const auto side = [](ArrayView<const double> breaks, double x) {
+    const double size = breaks[breaks.size() - 1] - breaks[0],
+                 turns = std::floor((x - breaks[0]) / size);
+    return turns * double(breaks.size()) +
+           double(std::upper_bound(breaks.begin(), breaks.end(), x - turns * size) -
+                  breaks.begin());
+  };
+  const auto cell = [&](double t) {
+    const Point2 p = way.at(t);
+    return std::pair<double, double>(side(u, p.x), side(v, p.y));
+  };
+  for (int i = 0; i < kPieces; ++i) {
+    double low = i / double(kPieces), high = (i + 1) / double(kPieces);
+    stops.push_back(high);
+    if (cell(low) == cell(high)) continue;
+    const auto before = cell(low);
+    for (int k = 0; k < 60; ++k) {
+      const double middle = 0.5 * (low + high);
+      (cell(middle) == before ? low : high) = middle;
+    }
+    const double end = (i + 1) / double(kPieces);
+    if (high - i / double(kPieces) > 1e-9 && end - high > 1e-9) stops.insert(stops.end() - 1, high);
+  }
+  TestSpline c{3, {0}, {}, {}, 0, {}};
+  const auto put = [&](Vec3 p) { c.poles.insert(c.poles.end(), {p.x, p.y, p.z}); };
+  const auto at = [&](double t) {
+    const Point2 p = way.at(t), d = way.derivative(t);
+    const TangentPoint s = surface.tangentsAt(within(p.x, u[0], u[u.size() - 1], period.x),
+                                              within(p.y, v[0], v[v.size() - 1], period.y));
+    return std::pair<Vec3, Vec3>(s.at, d.x * s.u + d.y * s.v);
+  };
+  put(at(0).first);
+  for (size_t i = 0; i + 1 < stops.size(); ++i) {
+    const double h = stops[i + 1] - stops[i];
+    const auto a = at(stops[i]), b = at(stops[i + 1]);
+    put(a.first + (h / 3) * a.second), put(b.first - (h / 3) * b.second), put(b.first);
+    c.knots.insert(c.knots.end(), 3, stops[i]);
+  }
+  c.knots.insert(c.knots.end(), 4, 1.0);
+  return c;
+}
+
+/// Finds the curve of space along a way. Checks that it is the way again, but for whole periods, and has no corner.
+void checkFound(const TestSpline& spline, const Way& way, Point2 period, double near) {
+  const NurbsSurface surface = surfaceOf(spline);
+  const TestSpline space = onSurface(surface, way, period);
+  const NurbsCurve curve({{3, space.knots}, 3, space.poles, {}});
+  Work work;
+  FoundCurve found;
+  const Inversion inversion(surface, 1e-5);
+  REQUIRE(inversion.period() == period);
+  REQUIRE(inversion.find(curve, 0, 1, 1e-5, work, found));
+  const TrimCurve trim(found.breaks, found.points);
+  const Point2 middle = trim.at(0.5), wanted = way.at(0.5);
+  const auto turns = [](double a, double b, double p) {
+    return p > 0 ? p * std::round((b - a) / p) : 0;
+  };
+  const Point2 shift{turns(middle.x, wanted.x, period.x), turns(middle.y, wanted.y, period.y)};
+  double off = 0;
+  for (int i = 0; i <= 2000; ++i) {
+    const Point2 p = trim.at(i / 2000.0), q = way.at(i / 2000.0);
+    off = std::max(off, std::hypot(p.x + shift.x - q.x, p.y + shift.y - q.y));
+  }
+  CHECK(off < near);
+  std::vector<double> corners;
+  trim.appendBreaks(0, 1, corners);
+  CHECK(corners.empty());
+}
+
 }  // namespace
 
 TEST_CASE("findMissingCurves: a seam lies on both sides of a cylinder, wherever the loop begins") {
@@ -268,4 +391,114 @@ TEST_CASE("findMissingCurves: a curve that crosses a seam is named") {
     CHECK(isNamed);
     CHECK(read.faults[0].loop == 0);
   }
+}
+
+TEST_CASE("Inversion: ways on a cylinder and a ring, over their seams, are found again") {
+  const uint32_t seed = 4712;
+  MESSAGE("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> around(-1, 5), part(0.05, 0.95), bends(-0.3, 0.3);
+  for (int i = 0; i < 15; ++i) {
+    // Up to once around.
+    const double first = around(random), turn = 4 * (part(random) - 0.5);
+    checkFound(cylinderSide(1, 2), {{first, 2 * part(random)}, {first + turn, 2 * part(random)}},
+               {4, 0}, 1e-11);
+  }
+  for (int i = 0; i < 15; ++i) {
+    const Point2 from{around(random), around(random)};
+    const Point2 to{from.x + 6 * (part(random) - 0.5), from.y + 6 * (part(random) - 0.5)};
+    checkFound(ring(3, 1), {from, to}, {4, 4}, 1e-11);
+    checkFound(ring(3, 1), {from, to, bends(random)}, {4, 4}, 1e-6);
+  }
+}
+
+TEST_CASE(
+    "Inversion: ways to the tip of a cone, and to a sphere's poles, arrive with their own "
+    "direction") {
+  const uint32_t seed = 4713;
+  MESSAGE("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> around(-1, 5), part(0.05, 0.95);
+  // Near the end all parameters around are nearly one point, and so a little less is known of them.
+  for (int i = 0; i < 15; ++i) {
+    const double first = around(random);
+    const Way way{{first, part(random)}, {first + 3 * (part(random) - 0.5), 1}, 0};
+    checkFound(cone(1), way, {4, 0}, 1e-8);
+    checkFound(cone(1), {way.to, way.from}, {4, 0}, 1e-8);
+  }
+  for (int i = 0; i < 15; ++i) {
+    const double first = around(random);
+    const Way way{
+        {first, 2 * part(random)}, {first + 3 * (part(random) - 0.5), i % 2 ? 2.0 : 0.0}, 0};
+    checkFound(sphereSurface(1), way, {4, 0}, 1e-8);
+    checkFound(sphereSurface(1), {way.to, way.from}, {4, 0}, 1e-8);
+  }
+}
+
+TEST_CASE("findMissingCurves: both seams of a ring lie on both sides, wherever the loop begins") {
+  const TestSpline surface = ring(3, 1);
+  const NurbsSurface s = surfaceOf(surface);
+  const TestSpline seamU = onSurface(s, {{0, 0}, {4, 0}}, {4, 4}),
+                   seamV = onSurface(s, {{0, 0}, {0, 4}}, {4, 4});
+  for (uint32_t first = 0; first < 4; ++first)
+    for (const bool isBackwards : {false, true}) {
+      ModelBuilder m;
+      const uint32_t u = m.addEdge(0, 1, &seamU), v = m.addEdge(0, 1, &seamV);
+      const TestSpline none;
+      std::vector<ModelBuilder::Use> loop = {{u, false, none, true},
+                                             {v, false, none, true},
+                                             {u, true, none, true},
+                                             {v, true, none, true}};
+      std::rotate(loop.begin(), loop.begin() + first, loop.end());
+      m.addFace(surface, {loop}, isBackwards);
+      const Read read(m);
+      REQUIRE(read.faults.empty());
+      const Point2 corners[4] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+      for (uint32_t k = 0; k < 4; ++k) {
+        checkNear(read.begin(k), corners[(first + k) % 4]);
+        checkNear(read.end(k), corners[(first + k + 1) % 4]);
+        CHECK(read.off(k) < 1e-6);
+      }
+      CHECK(read.model.vertices == 1);
+    }
+}
+
+TEST_CASE("findMissingCurves: a seam in many pieces, and a loop of very many edges") {
+  // A cylinder, its seam in pieces.
+  constexpr uint32_t kPieces = 30;
+  ModelBuilder m;
+  const TestSpline low = lifted(circle({0, 0}, 1), 0), high = lifted(circle({0, 0}, 1), 3);
+  const uint32_t e0 = m.addEdge(0, 4, &low), e1 = m.addEdge(0, 4, &high);
+  std::vector<ModelBuilder::Use> loop{{e0, false, {}}};
+  for (uint32_t k = 0; k < kPieces; ++k) {
+    const TestSpline piece{
+        1, {0, 0, 1, 1}, {1, 0, 3.0 * k / kPieces, 1, 0, 3.0 * (k + 1) / kPieces}, {}, 0, {}};
+    loop.push_back({m.addEdge(0, 1, &piece), false, {}, true});
+  }
+  loop.push_back({e1, true, {}});
+  for (uint32_t k = kPieces; k-- > 0;) loop.push_back({2 + k, true, {}, true});
+  m.addFace(cylinderSide(1, 3), {loop});
+  const Read seam(m);
+  REQUIRE(seam.faults.empty());
+  for (uint32_t k = 0; k < kPieces; ++k) {
+    checkNear(seam.begin(1 + k), {4, 3.0 * k / kPieces});
+    checkNear(seam.end(2 * kPieces + 1 - k), {0, 3.0 * k / kPieces});
+  }
+  // A polygon of as many edges as would be too deep for a search that calls itself for each.
+  constexpr uint32_t kEdges = 25000;
+  ModelBuilder plate;
+  std::vector<ModelBuilder::Use> around;
+  const auto corner = [](uint32_t k) {
+    const double angle = 2 * kPi * k / kEdges;
+    return Point2{0.9 * std::cos(angle), 0.9 * std::sin(angle)};
+  };
+  for (uint32_t k = 0; k < kEdges; ++k) {
+    const TestSpline side = lifted(segment(corner(k), corner(k + 1)), 0);
+    around.push_back({plate.addEdge(0, 1, &side), false, {}});
+  }
+  plate.addFace(square(1, 0), {around});
+  const Read polygon(plate);
+  REQUIRE(polygon.faults.empty());
+  CHECK(polygon.model.vertices == kEdges);
+  for (uint32_t k = 0; k < kEdges; k += 997) checkNear(polygon.begin(k), corner(k));
 }

@@ -1,6 +1,7 @@
 // Models as they are read: what is wrong with one, and where; and arrays that do not fit together.
 #include "surface/model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -154,6 +155,230 @@ TEST_CASE("Model: each fault is named with its place") {
           p.hasSpace[1] = false, p.flat[1] = segment({1, -1}, {1, 0.8});
         }).has(SurfaceFault::TrimOpen, 0, 1));
   CHECK(faultOf([](Plate& p) { p.outer = 2; }).has(SurfaceFault::Degenerate, kNone, kNone));
+}
+
+TEST_CASE(
+    "Model: a curve that leaves the domain, or its edge, in a short part alone is found out") {
+  const auto faultOf = [](auto&& spoil) {
+    Plate plate;
+    spoil(plate);
+    return Read(plate.made());
+  };
+  // A side of one cubic, whose middle is outside by 4/9 of what its pole is, in domains of size 2.
+  const auto side = [](double off) {
+    return TestSpline{3, {0, 0, 0, 0, 1, 1, 1, 1}, {-1, -1, -0.5, -1 - off, 0.5, -1, 1, -1}, {}, 0,
+                      {}};
+  };
+  for (const double off : {1e-6, 1e-5, 1e-3})
+    CHECK(faultOf([&](Plate& p) {
+            p.hasSpace[0] = false, p.flat[0] = side(off);
+          }).has(SurfaceFault::TrimOutside, 0, 0) == (off > 4e-6));
+  // One point of thousands, and of the edge's curve one that is not the domain's.
+  TestSpline hole{1, {0, 0}, {0.5, 0}, {}, 0, {}};
+  constexpr int kPoints = 20001;
+  for (int i = 1; i <= kPoints; ++i) {
+    const double angle = -2 * kPi * i / kPoints;
+    hole.knots.push_back(4.0 * i / kPoints);
+    hole.poles.insert(hole.poles.end(), {0.5 * std::cos(angle), 0.5 * std::sin(angle)});
+  }
+  hole.knots.push_back(4);
+  const TestSpline space = lifted(hole, 0);
+  CHECK(faultOf([&](Plate& p) { p.flat[4] = hole, p.space[4] = space; }).faults.empty());
+  CHECK(faultOf([&](Plate& p) {
+          p.flat[4] = hole, p.hasSpace[4] = false;
+          p.flat[4].poles[2 * 7777] = 1.5;
+        }).has(SurfaceFault::TrimOutside, 1, 0));
+  CHECK(faultOf([&](Plate& p) {
+          p.flat[4] = hole, p.space[4] = space;
+          p.flat[4].poles[2 * 7777] += 0.1;
+        }).has(SurfaceFault::EdgeApart, 1, 0));
+  CHECK(faultOf([&](Plate& p) {
+          p.flat[4] = hole, p.space[4] = space;
+          p.space[4].poles[3 * 7777 + 2] = 0.1;
+        }).has(SurfaceFault::EdgeApart, 1, 0));
+}
+
+TEST_CASE("Model: an edge that is a point is degenerate, whether it says so or not") {
+  const TestSpline around = circle({0, 0}, 1);
+  const double h = std::sqrt(0.5),
+               profile[5][3] = {{0, -1, 1}, {1, -1, h}, {1, 0, 1}, {1, 1, h}, {0, 1, 1}};
+  TestSpline ball{2, around.knots, {}, {}, 2, {0, 0, 0, 1, 1, 2, 2, 2}};
+  for (int k = 0; k < 9; ++k)
+    for (const auto& p : profile) {
+      ball.poles.insert(ball.poles.end(),
+                        {p[0] * around.poles[2 * k], p[0] * around.poles[2 * k + 1], p[1]});
+      ball.weights.push_back(around.weights[k] * p[2]);
+    }
+  TestSpline side{2, ball.knotsV, {}, {}, 0, {}}, points[2];
+  for (const auto& p : profile)
+    side.poles.insert(side.poles.end(), {p[0], 0, p[1]}), side.weights.push_back(p[2]);
+  for (const double z : {-1.0, 1.0})
+    points[z > 0] = {1, {0, 0, 4, 4}, {0, 0, z, 0, 0, z}, {}, 0, {}};
+  for (const bool isMarked : {true, false})
+    for (const bool hasCurve : {true, false})
+      for (const bool hasFlat : {true, false}) {
+        if (!isMarked && !hasCurve && !hasFlat) continue;
+        ModelBuilder m;
+        const uint32_t seam = m.addEdge(0, 2, &side),
+                       south = m.addEdge(0, 4, hasCurve ? &points[0] : nullptr, 1e-9, isMarked),
+                       north = m.addEdge(0, 4, hasCurve ? &points[1] : nullptr, 1e-9, isMarked);
+        const auto flat = [&](Point2 a, Point2 b, double to) {
+          return hasFlat ? segment(a, b, 0, to) : TestSpline{1, {}, {}, {}, 0, {}};
+        };
+        m.addFace(ball, {{{south, false, flat({0, 0}, {4, 0}, 4)},
+                          {seam, false, flat({4, 0}, {4, 2}, 2), true},
+                          {north, true, flat({0, 2}, {4, 2}, 4)},
+                          {seam, true, flat({0, 0}, {0, 2}, 2), true}}});
+        const Read read(m);
+        REQUIRE(read.faults.empty());
+        CHECK(!read.model.edges[seam].isDegenerate);
+        CHECK(read.model.edges[south].isDegenerate);
+        CHECK(read.model.edges[north].isDegenerate);
+        CHECK(read.model.vertices == 2);
+      }
+}
+
+TEST_CASE("Model: edges that say they are points, and are none, are named") {
+  Plate plate;
+  ModelBuilder m;
+  for (uint32_t k = 0; k < 4; ++k) m.addEdge(0, 1, nullptr, 1e-9, k == 2);
+  Sides sides;
+  for (uint32_t k = 0; k < 4; ++k) sides.push_back({k, false, plate.flat[k]});
+  m.addFace(plate.surface, {sides});
+  CHECK(Read(m).has(SurfaceFault::EdgeApart, 0, 2));
+}
+
+TEST_CASE("Model: of curves that are missing the one that is not found is named") {
+  for (uint32_t lost = 0; lost < 4; ++lost) {
+    Plate plate;
+    for (TestSpline& c : plate.flat) c = {1, {}, {}, {}, 0, {}};
+    // Bent out of the plane, between its ends.
+    TestSpline& bent = plate.space[lost];
+    bent.degree = 2, bent.knots = {0, 0, 0, 1, 1, 1};
+    bent.poles.insert(bent.poles.begin() + 3, {0.5 * (bent.poles[0] + bent.poles[3]),
+                                               0.5 * (bent.poles[1] + bent.poles[4]), 0.1});
+    CHECK(Read(plate.made()).has(SurfaceFault::EdgeApart, 0, lost));
+  }
+}
+
+TEST_CASE("Model: spheres of all sizes, near and far, have a seam and two poles") {
+  const uint32_t seed = 20262;
+  MESSAGE("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const std::vector<uint32_t> shape = sphere().shape();
+  // Knots first, then poles. See ModelArrays.
+  const size_t firstPole = 12 + 8, count = 45;
+  for (int round = 0; round < 60; ++round) {
+    const double size = std::pow(10, 36.0 * any(random));
+    const double away = round % 2 == 0 ? 0 : size * std::pow(10, 9 * std::fabs(any(random)));
+    if (away > 1e36) continue;
+    const Vec3 middle = {away * any(random), away * any(random), away * any(random)};
+    // Turned, so that no coordinates are the same by chance.
+    const double angle = kPi * any(random), c = std::cos(angle), s = std::sin(angle);
+    std::vector<double> numbers = sphere().numbers();
+    for (size_t i = firstPole; i < firstPole + 3 * count; i += 3) {
+      const Vec3 p{numbers[i], c * numbers[i + 1] - s * numbers[i + 2],
+                   s * numbers[i + 1] + c * numbers[i + 2]};
+      numbers[i] = middle.x + size * (c * p.x - s * p.y);
+      numbers[i + 1] = middle.y + size * (s * p.x + c * p.y);
+      numbers[i + 2] = middle.z + size * p.z;
+    }
+    const Read read(shape, numbers);
+    REQUIRE(read.isRead);
+    // What does not fit into 32 bits, or is no larger than what these cannot tell.
+    if (size < 1e-34) continue;
+    REQUIRE(read.faults.empty());
+    REQUIRE(read.model.edges.size() == 3);
+    CHECK(read.model.vertices == 2);
+    // South, seam, north.
+    CHECK(read.model.edges[0].isDegenerate);
+    CHECK(read.model.edges[2].isDegenerate);
+  }
+}
+
+TEST_CASE("Model: what is beyond all sizes is refused") {
+  const auto scaled = [](double poles, double knots) {
+    Plate plate;
+    ModelBuilder m;
+    TestSpline s = plate.surface;
+    for (double& x : s.poles) x *= poles;
+    for (double& x : s.knots) x *= knots;
+    m.addFace(s, {});
+    return Read(m);
+  };
+  CHECK(scaled(1, 1).faults.empty());
+  CHECK(scaled(1e30, 1e40).faults.empty());
+  CHECK(scaled(1e-30, 1e-40).faults.empty());
+  CHECK(scaled(1e40, 1).has(SurfaceFault::NotFinite, kNone, kNone));
+  CHECK(scaled(1e151, 1).has(SurfaceFault::NotFinite, kNone, kNone));
+  CHECK(scaled(1e-40, 1).has(SurfaceFault::Degenerate, kNone, kNone));
+  CHECK(scaled(0, 1).has(SurfaceFault::Degenerate, kNone, kNone));
+  CHECK(scaled(1, 1e60).has(SurfaceFault::BadKnots, kNone, kNone));
+  CHECK(scaled(1, 1e-60).has(SurfaceFault::BadKnots, kNone, kNone));
+}
+
+TEST_CASE("Model: corners of holes that meet are one vertex, in columns and rows too") {
+  const uint32_t seed = 20263;
+  MESSAGE("seed " << seed);
+  std::mt19937 random(seed);
+  constexpr int kCells = 12;
+  // Diamonds in cells of a grid: those of cells side by side share a corner.
+  for (int round = 0; round < 10; ++round) {
+    Plate plate;
+    ModelBuilder m;
+    Sides sides;
+    for (uint32_t k = 0; k < 4; ++k) sides.push_back({m.addEdge(0, 1), false, plate.flat[k]});
+    std::vector<Sides> loops{sides};
+    std::vector<Point2> places;
+    const double half = 0.9 / kCells;
+    for (int i = 0; i < kCells; ++i)
+      for (int k = 0; k < kCells; ++k) {
+        if (random() % 3 == 0) continue;
+        const Point2 at{-0.9 + half * (2 * i + 1), -0.9 + half * (2 * k + 1)};
+        const Point2 corners[4] = {
+            {at.x + half, at.y}, {at.x, at.y - half}, {at.x - half, at.y}, {at.x, at.y + half}};
+        Sides diamond;
+        for (uint32_t c = 0; c < 4; ++c) {
+          diamond.push_back({m.addEdge(0, 1), false, segment(corners[c], corners[(c + 1) % 4])});
+          const bool isNew = std::none_of(places.begin(), places.end(), [&](Point2 p) {
+            return std::hypot(p.x - corners[c].x, p.y - corners[c].y) < 1e-9;
+          });
+          if (isNew) places.push_back(corners[c]);
+        }
+        loops.push_back(diamond);
+      }
+    m.addFace(plate.surface, loops);
+    const Read read(m);
+    REQUIRE(read.faults.empty());
+    CHECK(read.model.vertices == 4 + places.size());
+  }
+}
+
+TEST_CASE("Model: memory is charged before it is taken") {
+  // Each pole of so high a degree begins a span, whose Bézier points are many.
+  TestSpline s{25, {}, {}, {}, 25, {}};
+  constexpr int kPoles = 60;
+  for (int i = 0; i < kPoles + 26; ++i) s.knots.push_back(i);
+  s.knotsV = s.knots;
+  for (int i = 0; i < kPoles; ++i)
+    for (int k = 0; k < kPoles; ++k) s.poles.insert(s.poles.end(), {1.0 * i, 1.0 * k, 0});
+  ModelBuilder m;
+  m.addFace(s, {});
+  const std::vector<uint32_t> shape = m.shape();
+  const std::vector<double> numbers = m.numbers();
+  const uint64_t points = 35 * 35 * 26 * 26 * 4 * sizeof(double);
+  for (const uint64_t limit : {points / 2, 2 * points}) {
+    Work work(limit, nullptr, nullptr);
+    Charge charge(work);
+    Model model;
+    std::vector<ModelFault> faults;
+    const bool isRead = readModel({shape, numbers}, work, charge, model, faults);
+    CHECK(isRead == (limit > points));
+    CHECK((work.status() == Status::OutOfMemory) == (limit < points));
+    CHECK(charge.bytes() > points);
+    CHECK(model.faces.size() == (isRead ? 1 : 0));
+  }
 }
 
 TEST_CASE("Model: within its edge's tolerance a curve may be off, and loops open") {

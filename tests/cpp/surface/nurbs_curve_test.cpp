@@ -1,7 +1,9 @@
 // Curves against circles and polynomials.
 #include "surface/nurbs_curve.h"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include <doctest/doctest.h>
 
@@ -60,5 +62,61 @@ TEST_CASE("NurbsCurve: a polynomial on any knots") {
     CHECK(length(p.at - Vec3{t, t * t, t * t * t}) < 1e-12);
     CHECK(length(p.first - Vec3{1, 2 * t, 3 * t * t}) < 1e-11);
     CHECK(length(p.second - Vec3{0, 2, 6 * t}) < 1e-10);
+  }
+}
+
+TEST_CASE("NurbsCurve: the derivative from the left is the limit of those before a break") {
+  const uint32_t seed = 93;
+  MESSAGE("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(-1, 1), weights(0.2, 5);
+  for (int round = 0; round < 50; ++round) {
+    Curve c{3, 3, {0, 0, 0, 0, 0.25, 0.25, 0.25, 2, 2, 3, 3, 3, 3}, {}, {}};
+    for (int i = 0; i < 9; ++i) {
+      for (int axis = 0; axis < 3; ++axis) c.poles.push_back(any(random));
+      if (round % 2) c.weights.push_back(weights(random));
+    }
+    const NurbsCurve curve = c.made();
+    const double breaks[] = {0.25, 2, 3};
+    for (uint32_t span = 0; span < 3; ++span) {
+      const double h = 1e-7;
+      const Vec3 near = curve.at(breaks[span] - h).first;
+      const Vec3 second = curve.at(breaks[span] - h).second;
+      CHECK(length(curve.derivativeAtEnd(span) - (near + h * second)) < 1e-8 * (1 + length(near)));
+    }
+    CHECK(length(curve.derivativeAtEnd(2) - curve.at(3).first) <
+          1e-12 * (1 + length(curve.at(3).first)));
+  }
+}
+
+TEST_CASE("liesWithin: boxes around curves, and ones a little too small, against many points") {
+  const uint32_t seed = 94;
+  MESSAGE("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(-1, 1), weights(0.2, 5), part(0, 4);
+  for (int round = 0; round < 80; ++round) {
+    Curve c{3, 2, {0, 0, 0, 0, 1, 2, 2, 2, 4, 4, 4, 4}, {}, {}};
+    for (int i = 0; i < 8; ++i) {
+      c.poles.insert(c.poles.end(), {any(random), any(random)});
+      if (round % 2) c.weights.push_back(weights(random));
+    }
+    const NurbsCurve curve = c.made();
+    double from = part(random), to = part(random);
+    if (to < from) std::swap(from, to);
+    if (round % 4 == 0) from = 0, to = 4;
+    Vec3 low = curve.placeAt(from), high = low;
+    for (int i = 1; i <= 10000; ++i) {
+      // The corner at 2 among them.
+      const double t = i < 10000 ? from + (to - from) * i / 9999 : std::clamp(2.0, from, to);
+      const Vec3 p = curve.placeAt(t);
+      low = lowest(low, p), high = highest(high, p);
+    }
+    // Between two points the curve bulges by less.
+    const Vec3 flat{0, 0, 1}, slack{2e-5, 2e-5, 0};
+    CHECK(liesWithin(curve, from, to, low - slack - flat, high + slack + flat));
+    for (const Vec3 less : {Vec3{1e-4, 0, 0}, Vec3{0, 1e-4, 0}}) {
+      CHECK(!liesWithin(curve, from, to, low + less - flat, high + flat));
+      CHECK(!liesWithin(curve, from, to, low - flat, high - less + flat));
+    }
   }
 }

@@ -333,6 +333,33 @@ TEST_CASE("TrimmedSurfaces: poles move, and a move that is refused leaves all as
   CHECK(s.layout().positions == positions);
 }
 
+TEST_CASE("TrimmedSurfaces: moves that open a seam or a pole, or lead out of reach, are refused") {
+  Opened ball(sphere(1));
+  TrimmedSurfaces& s = *ball.surfaces;
+  const Sampling sampling = samplingOf(0.002);
+  Tessellation told;
+  REQUIRE(s.update(sampling, {}, ball.work, told));
+  const std::vector<float> positions = s.layout().positions;
+  ModelFault fault{};
+  // On the seam, and at the south pole.
+  for (const uint32_t pole : {2u, 0u, 10u}) {
+    CHECK_FALSE(s.movePole(0, pole, {1.5, 0.5, 0.2}, 0, ball.work, fault));
+    CHECK(fault.fault == SurfaceFault::BadEdge);
+    CHECK(fault.edge != kNone);
+  }
+  CHECK_FALSE(s.movePole(0, 22, {1e40, 0, 0}, 0, ball.work, fault));
+  CHECK(fault.fault == SurfaceFault::NotFinite);
+  CHECK_FALSE(s.movePole(0, 22, {0, 0, 0}, 1e-20, ball.work, fault));
+  CHECK(fault.fault == SurfaceFault::BadWeights);
+  REQUIRE(s.update(sampling, {}, ball.work, told));
+  CHECK(s.layout().positions == positions);
+  // What leaves the seam as it is can move.
+  REQUIRE(s.movePole(0, 22, {-1.5, 0.2, 0.1}, 0, ball.work, fault));
+  REQUIRE(s.update(sampling, {}, ball.work, told));
+  check(s, told);
+  CHECK(told.deviation <= 0.002);
+}
+
 TEST_CASE("TrimmedSurfaces: edges of several faces do not move") {
   Opened cylinder(solidCylinder(1, 2));
   ModelFault fault{};

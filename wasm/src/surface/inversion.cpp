@@ -304,7 +304,7 @@ Inversion::Sample Inversion::sampleAt(const Trace& trace, double t, Point2 at) c
   s.after = s.before = step(tangents, middle, c.first);
   const auto found = std::lower_bound(breaks.begin(), breaks.end(), t);
   if (found != breaks.begin() && found != breaks.end() && *found == t) {
-    const Vec3 before = trace.curve.at(t - 1e-9 * (t - *(found - 1))).first;
+    const Vec3 before = trace.curve.derivativeAtEnd(uint32_t(found - breaks.begin()) - 1);
     if (length(before - c.first) > 1e-6 * length(c.first))
       s.before = step(tangents, middle, before);
   }

@@ -15,7 +15,7 @@ constexpr double kOverhang = 0.02;
 /// A curve that stays this near to the border, in the domain's size, runs along it.
 constexpr double kBorder = 1e-6;
 /// Most choices that are tried for one loop.
-constexpr uint32_t kMostChoices = 20000;
+constexpr size_t kMostChoices = 20000;
 /// Bytes of a piece of a curve, with the factors that it is made by.
 constexpr uint64_t kPieceBytes = 400;
 
@@ -59,6 +59,8 @@ class LoopFiller {
   LoopFiller(Model& model, const Inversion& surface, double slack, Work& work, Charge& charge)
       : m_(model), surface_(surface), slack_(slack), work_(work), charge_(charge) {}
   bool fill(uint32_t loop);
+  /// The use whose curve is not found, or kNone. Others of its loop then have none either.
+  uint32_t lost() const { return lost_; }
 
  private:
   const ModelEdge& edgeOf(const Placed& p) const { return m_.edges[m_.uses[p.use].edge]; }
@@ -68,7 +70,10 @@ class LoopFiller {
   bool liesWithin(const Placed& p, Point2 shift) const;
   bool meet(const Placed& a, Point2 end, const Placed& b, Point2 begin, bool isFree) const;
   void choose();
-  void tryFrom(size_t i);
+  bool follows(size_t i) const;
+  bool meetsAsChosen(size_t ia, size_t ib, bool isFree) const;
+  void judge();
+  void search();
   double area() const;
   size_t next(size_t i) const { return i + 1 == loop_.size() ? 0 : i + 1; }
   void joinEnds(size_t a, size_t b);
@@ -84,7 +89,7 @@ class LoopFiller {
   std::vector<uint32_t> chosen_, best_;
   double bestArea_ = 0;
   double sense_ = 1;
-  uint32_t tried_ = 0;
+  uint32_t lost_ = kNone;
 };
 
 /// What is known of a use before its neighbours are. False if its curve is not found.
@@ -191,42 +196,54 @@ double LoopFiller::area() const {
   return sum;
 }
 
-/// Tries all ways on from use i; those before it are chosen.
-void LoopFiller::tryFrom(size_t i) {
-  if (++tried_ > kMostChoices) return;
-  if (i == loop_.size()) {
-    // The end of the last one that is not free, and the beginning of the first.
-    size_t last = loop_.size() - 1;
-    while (loop_[last].isFree) --last;
-    const Placed &a = loop_[last], &b = loop_[0];
-    if (!meet(a, a.to + a.shifts[chosen_[last]], b, b.from + b.shifts[chosen_[0]],
-              last + 1 < loop_.size()))
-      return;
-    const double area = sense_ * this->area();
-    if (!best_.empty() && area <= bestArea_) return;
-    bestArea_ = area, best_ = chosen_;
-    return;
-  }
-  if (loop_[i].isFree) {
-    chosen_[i] = 0;
-    return tryFrom(i + 1);
-  }
-  size_t before = i;
-  bool isFree = false;
-  while (before > 0 && loop_[--before].isFree) isFree = true;
-  for (uint32_t k = 0; k < loop_[i].shifts.size(); ++k) {
-    chosen_[i] = k;
-    const Placed &a = loop_[before], &b = loop_[i];
-    if (i == 0 || meet(a, a.to + a.shifts[chosen_[before]], b, b.from + b.shifts[k], isFree))
-      tryFrom(i + 1);
+/// Whether use i begins where the last one before it ends that is not free, as both are chosen.
+bool LoopFiller::follows(size_t i) const {
+  if (i == 0 || loop_[i].isFree) return true;
+  size_t before = i - 1;
+  while (loop_[before].isFree) --before;
+  return meetsAsChosen(before, i, before + 1 < i);
+}
+
+/// The same for two uses of the loop, with free ones between them or not.
+bool LoopFiller::meetsAsChosen(size_t ia, size_t ib, bool isFree) const {
+  const Placed &a = loop_[ia], &b = loop_[ib];
+  return meet(a, a.to + a.shifts[chosen_[ia]], b, b.from + b.shifts[chosen_[ib]], isFree);
+}
+
+/// Keeps the choices made if the loop closes, and runs around more area than those kept so far.
+void LoopFiller::judge() {
+  size_t last = loop_.size() - 1;
+  while (loop_[last].isFree) --last;
+  if (!meetsAsChosen(last, 0, last + 1 < loop_.size())) return;
+  const double area = sense_ * this->area();
+  if (!best_.empty() && area <= bestArea_) return;
+  bestArea_ = area, best_ = chosen_;
+}
+
+/// Tries the shifts of all uses, one after the other. Free ones have one, which counts for nothing.
+void LoopFiller::search() {
+  chosen_.assign(loop_.size(), 0), best_.clear();
+  std::vector<uint32_t> next(loop_.size(), 0);
+  size_t tries = kMostChoices + loop_.size();
+  for (size_t i = 0;; --tries) {
+    // Back to a use that has a shift left.
+    while (next[i] == loop_[i].shifts.size()) {
+      if (i == 0) return;
+      --i;
+    }
+    if (tries == 0) return;
+    chosen_[i] = next[i]++;
+    if (!follows(i)) continue;
+    if (i + 1 < loop_.size())
+      next[++i] = 0;
+    else
+      judge();
   }
 }
 
 /// Chooses the shift of each use, and moves the curves found.
 void LoopFiller::choose() {
-  chosen_.assign(loop_.size(), 0), best_.clear();
-  tried_ = 0;
-  tryFrom(0);
+  search();
   if (best_.empty()) best_.assign(loop_.size(), 0);
   const Point2 low = surface_.least(), high = surface_.greatest();
   for (size_t i = 0; i < loop_.size(); ++i) {
@@ -313,7 +330,7 @@ bool LoopFiller::fill(uint32_t number) {
   for (uint32_t u = begin, k = loop.firstUse; k < loop.endUse; ++k, u = m_.after(u)) {
     Placed p;
     p.use = u;
-    if (!place(p)) return work_.going();
+    if (!place(p)) return lost_ = u, false;
     loop_.push_back(std::move(p));
   }
   sense_ = loop.isOuter ? 1 : -1;
@@ -329,7 +346,9 @@ bool LoopFiller::fill(uint32_t number) {
 
 }  // namespace
 
-bool findMissingCurves(Model& model, uint32_t number, double slack, Work& work, Charge& charge) {
+bool findMissingCurves(Model& model, uint32_t number, double slack, Work& work, Charge& charge,
+                       uint32_t& lost) {
+  lost = kNone;
   const ModelFace& face = model.faces[number];
   const auto isMissing = [&](uint32_t loop) {
     for (uint32_t u = model.loops[loop].firstUse; u < model.loops[loop].endUse; ++u)
@@ -342,7 +361,10 @@ bool findMissingCurves(Model& model, uint32_t number, double slack, Work& work, 
   if (loops.empty()) return true;
   const Inversion surface(*face.surface, slack);
   LoopFiller filler(model, surface, slack, work, charge);
-  return std::all_of(loops.begin(), loops.end(), [&](uint32_t l) { return filler.fill(l); });
+  for (const uint32_t l : loops)
+    if (!filler.fill(l)) break;
+  lost = filler.lost();
+  return work.going();
 }
 
 }  // namespace sf

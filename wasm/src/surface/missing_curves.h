@@ -14,8 +14,11 @@ namespace sf {
 
 /// Gives the uses of a face the curves that they lack, by the parameters of their edges, such that consecutive ones meet and
 /// all stay in the domain, as far as that can be; outer loops run counter-clockwise where there is a choice. Degenerate edges
-/// run straight between their neighbours. A curve that is not within its edge's tolerance and `slack` of the surface stays
-/// missing. False if the work has ended.
-bool findMissingCurves(Model& model, uint32_t face, double slack, Work& work, Charge& charge);
+/// run straight between their neighbours.
+///   lost  out: the first use whose curve is not within its edge's tolerance and `slack` of the surface, or kNone. It and others
+///         then still lack theirs
+/// False if the work has ended.
+bool findMissingCurves(Model& model, uint32_t face, double slack, Work& work, Charge& charge,
+                       uint32_t& lost);
 
 }  // namespace sf

@@ -67,6 +67,7 @@ struct ModelUse {
 struct ModelLoop {
   uint32_t face = kNone, firstUse = 0, endUse = 0;
   bool isOuter = false;
+  bool isDomain = false;  // not given: around the domain of a face that has no outer loop
 };
 
 struct ModelFace {
@@ -82,7 +83,7 @@ struct ModelFace {
 ///   shape    faces, edges;
 ///            for each edge: flags (1 degenerate, 2 with a curve); with a curve: degree, poles, knots, rational (0 or 1)
 ///            for each face: flags (1 reversed); degree u, poles u, knots u, degree v, poles v, knots v, rational; outer
-///              loop + 1, or 0; loops;
+///              loop + 1, or 0: the domain is what is inside, and all loops are holes; loops;
 ///              for each loop: uses; for each use: edge, flags (1 reversed, 2 seam, 4 with a curve); with a curve:
 ///              degree, poles, knots, rational
 ///   numbers  for each edge: tolerance, from, to; with a curve: knots, poles [3n], weights if rational
@@ -100,6 +101,7 @@ struct Model {
   std::vector<ModelFace> faces;
   uint32_t vertices = 0;
   Vec3 least{}, greatest{};  // the box of all poles of faces that are not left out
+  double slack = 0;          // how far curves may be apart beyond their edge's tolerance
   double diagonal() const { return length(greatest - least); }
 
   /// A use of a loop after or before another, around the loop.
@@ -113,11 +115,18 @@ struct Model {
   }
 };
 
+/// Whether something is wrong with the poles and weights of a surface, and what.
+bool findFault(const NurbsSurfaceView& surface, SurfaceFault& fault);
+
+/// Whether a use's curve, on its surface, runs with its edge within tolerance: with its curve of space, or if it has none with
+/// the edge's first use; if the edge is degenerate, it stays where it begins. True too once the work has ended.
+bool runsWithEdge(const Model& model, uint32_t use, Work& work);
+
 /// Whether a use's curve stays in the domain of its face, or leaves it by no more than this share of its size.
 bool staysInDomain(const Model& model, uint32_t use, double share = 1e-6);
 
-/// Reads a model. Faces with faults are left out, and named. A face without loops gets one around its domain, whose edges
-/// are new ones after those given; they are shared where the surface closes, and degenerate where it has a pole.
+/// Reads a model. Faces with faults are left out, and named. A face without an outer loop gets one around its domain, after its
+/// own. The edges are new ones after those given; they are shared where the surface closes, and degenerate where it has a pole.
 /// What is checked here: all that can be said of a curve or a surface alone, of the ends of uses, and of curves against
 /// their edge; that curves cross, and loops lie wrongly, shows once they are sampled (faults.h).
 ///   faults  out: in the order of faces, the first of each face. For an edge that is itself bad, of the first face that uses it

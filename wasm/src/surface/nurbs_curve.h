@@ -17,6 +17,9 @@ struct NurbsCurveView {
   ArrayView<const double> weights;  // [t.count()] positive, or empty: not rational
 };
 
+/// The bytes that a curve takes.
+uint64_t bytesOf(const NurbsCurveView& view);
+
 /// A point of a curve, and its derivatives there; z is 0 in two dimensions.
 struct CurvePoint {
   Vec3 at, first, second;
@@ -28,15 +31,27 @@ class NurbsCurve {
   explicit NurbsCurve(const NurbsCurveView& view);
 
   const BezierSpans& spans() const { return t_; }
-  /// At a parameter of the domain, with derivatives from the right at breaks, but at the end of the domain. O(p) time.
+  /// At a parameter, of which those outside of the domain count as its nearest end. With derivatives from the right at breaks,
+  /// but at the end of the domain. O(p) time.
   CurvePoint at(double t) const;
   /// The place alone.
   Vec3 placeAt(double t) const;
+  /// The derivative from the left at the end of a span.
+  Vec3 derivativeAtEnd(uint32_t span) const;
+
+  /// [(p + 1) 4] the Bézier points of a span: x w, y w, z w, w.
+  const double* bezierPoints(uint32_t span) const {
+    return points_.data() + size_t(span) * (t_.degree() + 1) * 4;
+  }
 
  private:
   BezierSpans t_;
   std::vector<double> points_;  // span after span: [(p + 1) 4] homogeneous
 };
+
+/// Whether all of the curve between two parameters lies in a box, but for rounding. O(p²) time a span, if most is far from the
+/// sides.
+bool liesWithin(const NurbsCurve& curve, double from, double to, Vec3 low, Vec3 high);
 
 /// Appends the breaks strictly between two parameters at which the curve has a corner, in order.
 void appendCorners(const NurbsCurve& curve, double from, double to, std::vector<double>& corners);

@@ -29,6 +29,12 @@ SurfacePoint project(const Homogeneous (&a)[6]) {
 
 }  // namespace
 
+uint64_t bytesOf(const NurbsSurfaceView& view) {
+  const uint64_t p = view.u.degree + 1, q = view.v.degree + 1, u = spanCount(view.u),
+                 v = spanCount(view.v);
+  return sizeof(NurbsSurface) + 8 * (u * v * p * q * kChannels + u * (p * p + 2) + v * (q * q + 2));
+}
+
 NurbsSurface::NurbsSurface(const NurbsSurfaceView& s)
     : u_(s.u), v_(s.v), isRational_(!s.weights.empty()) {
   const uint32_t p = u_.degree() + 1, q = v_.degree() + 1, columns = s.v.count(), c = kChannels;
@@ -68,7 +74,7 @@ NurbsSurface::NurbsSurface(const NurbsSurfaceView& s)
 NurbsSurface::Local NurbsSurface::localIn(const BezierSpans& spans, double t) {
   const uint32_t span = spans.spanAt(t);
   const double a = spans.breaks()[span], b = spans.breaks()[span + 1];
-  return {span, (t - a) / (b - a)};
+  return {span, std::clamp((t - a) / (b - a), 0.0, 1.0)};
 }
 
 const double* NurbsSurface::patch(uint32_t iu, uint32_t iv) const {

@@ -18,6 +18,9 @@ struct NurbsSurfaceView {
   ArrayView<const double> weights;  // [u.count() v.count()] positive, or empty: not rational
 };
 
+/// The bytes that a surface takes.
+uint64_t bytesOf(const NurbsSurfaceView& view);
+
 /// A point of a surface, and its first derivatives there.
 struct TangentPoint {
   Vec3 at, u, v;
@@ -38,7 +41,7 @@ class NurbsSurface {
   const BezierSpans& u() const { return u_; }
   const BezierSpans& v() const { return v_; }
 
-  /// At parameters of the domain. With derivatives from the right at breaks, but at the end of the domain.
+  /// At parameters, of which those outside of the domain count as the nearest of it. With derivatives from the right at breaks, but at the end of the domain.
   /// O(p q) time.
   SurfacePoint at(double u, double v) const;
   /// The same without second derivatives, in half the time.

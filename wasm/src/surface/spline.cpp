@@ -31,7 +31,10 @@ bool areKnots(const KnotVector& v, size_t poles) {
   if (p < 1 || p > kMostDegree || poles <= p || v.knots.size() != poles + p + 1) return false;
   for (size_t i = 0; i < v.knots.size(); ++i)
     if (!std::isfinite(v.knots[i]) || (i > 0 && v.knots[i] < v.knots[i - 1])) return false;
-  if (!(v.from() < v.to()) || !std::isfinite(v.to() - v.from())) return false;
+  const auto isSpan = [](double width) { return width >= kShortestSpan && width <= kLongestSpan; };
+  if (!isSpan(v.to() - v.from())) return false;
+  for (size_t i = 1; i < v.knots.size(); ++i)
+    if (v.knots[i - 1] < v.knots[i] && !isSpan(v.knots[i] - v.knots[i - 1])) return false;
   size_t run = 0;
   for (size_t i = 0; i < v.knots.size(); ++i) {
     run = i > 0 && v.knots[i] == v.knots[i - 1] ? run + 1 : 1;
@@ -40,8 +43,16 @@ bool areKnots(const KnotVector& v, size_t poles) {
   return true;
 }
 
+uint32_t spanCount(const KnotVector& v) {
+  uint32_t spans = 0;
+  for (uint32_t k = v.degree; k < v.count(); ++k) spans += v.knots[k] < v.knots[k + 1];
+  return spans;
+}
+
 BezierSpans::BezierSpans(const KnotVector& v) : degree_(v.degree) {
-  const uint32_t p = degree_, size = p + 1;
+  const uint32_t p = degree_, size = p + 1, spans = spanCount(v);
+  breaks_.reserve(spans + 1), firsts_.reserve(spans);
+  factors_.reserve(size_t(spans) * size * size);
   double arguments[kMostDegree];
   for (uint32_t k = p; k < v.count(); ++k) {
     const double a = v.knots[k], b = v.knots[k + 1];

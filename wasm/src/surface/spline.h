@@ -22,10 +22,15 @@ struct KnotVector {
 
 /// Degrees above this are refused.
 constexpr uint32_t kMostDegree = 25;
+/// And so are spans shorter or longer than this: squares of derivatives have to stay finite.
+constexpr double kShortestSpan = 1e-50, kLongestSpan = 1e50;
 
 /// Whether these are knots: of degree 1 to kMostDegree, finite, never falling, those inside the domain at most `degree` times,
 /// and as many as `poles` poles need. The domain is not empty.
 bool areKnots(const KnotVector& v, size_t poles);
+
+/// How many spans of positive length there are.
+uint32_t spanCount(const KnotVector& v);
 
 /// A spline's spans of positive length, and how their Bézier points are made of its poles.
 class BezierSpans {

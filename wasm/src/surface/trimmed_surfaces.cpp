@@ -117,6 +117,9 @@ bool TrimmedSurfaces::settle(uint32_t face, const FaceProblem& problem, bool may
   if (problem.fault == SurfaceFault::TrimsCross && fault.otherLoop < fault.loop)
     std::swap(fault.loop, fault.otherLoop);
   if (problem.fault == SurfaceFault::HoleOutside) fault.otherLoop = kNone;
+  // A loop that was not given is not named: what crosses it leaves the domain.
+  if (fault.otherLoop != kNone && model_.loops[firstLoop + fault.otherLoop].isDomain)
+    fault.fault = SurfaceFault::TrimOutside, fault.otherLoop = kNone;
   return false;
 }
 
@@ -555,20 +558,36 @@ bool TrimmedSurfaces::movePole(uint32_t face, uint32_t pole, Vec3 to, double wei
   const std::vector<uint32_t> edges = edgesOf(face);
   for (const uint32_t e : edges)
     if (!isAlone(e, face)) return fault.edge = e, false;
-  const SplineArrays before = f.arrays;
-  double* at = &f.arrays.poles[3 * size_t(pole)];
+  SplineArrays other = f.arrays;
+  double* at = &other.poles[3 * size_t(pole)];
   at[0] = to.x, at[1] = to.y, at[2] = to.z;
   if (weight > 0) {
-    if (f.arrays.weights.empty()) f.arrays.weights.assign(f.arrays.poles.size() / 3, 1);
-    f.arrays.weights[pole] = weight;
+    if (other.weights.empty()) other.weights.assign(other.poles.size() / 3, 1);
+    other.weights[pole] = weight;
   }
-  // Loops lie in the domain, so they stay right.
-  f.surface = std::make_unique<NurbsSurface>(f.arrays.surface());
-  for (const uint32_t e : edges) model_.edges[e].curve = nullptr;
+  SurfaceFault bad;
+  if (findFault(other.surface(), bad)) return fault.fault = bad, false;
+  // Loops lie in the domain, so they stay right. Edges lie where the surface has them now.
+  std::vector<std::unique_ptr<NurbsCurve>> curves(edges.size());
+  const auto exchange = [&] {
+    std::swap(f.arrays, other);
+    f.surface = std::make_unique<NurbsSurface>(f.arrays.surface());
+    for (size_t i = 0; i < edges.size(); ++i) std::swap(model_.edges[edges[i]].curve, curves[i]);
+  };
+  exchange();
+  // Seams must not open, and poles stay points.
+  const auto tears = [&](uint32_t edge) {
+    return std::any_of(usesOf_.begin() + firstUses_[edge], usesOf_.begin() + firstUses_[edge + 1],
+                       [&](uint32_t use) { return !runsWithEdge(model_, use, work); });
+  };
+  const auto torn = std::find_if(edges.begin(), edges.end(), tears);
+  if (torn != edges.end()) {
+    exchange();
+    return fault.edge = *torn, false;
+  }
   replant(face, edges);
   if (!checkAgain(face, work, fault)) {
-    f.arrays = before;
-    f.surface = std::make_unique<NurbsSurface>(f.arrays.surface());
+    exchange();
     replant(face, edges);
     return false;
   }

@@ -59,7 +59,8 @@ class TrimmedSurfaces {
   const MeshLayout& layout() const { return layout_; }
 
   /// Moves a pole of a face's surface, or of the trimming curve of a use; the next update follows. Edges of the face, or that
-  /// edge, must be of this face alone: from then on they lie where the surface has them.
+  /// edge, must be of this face alone: from then on they lie where the surface has them. Seams cannot be opened, nor edges that
+  /// are points.
   ///   weight   positive, or 0: stays
   ///   fault    out: why it is refused; the model is then as before
   bool movePole(uint32_t face, uint32_t pole, Vec3 to, double weight, Work& work,
