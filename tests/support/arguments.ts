@@ -476,7 +476,7 @@ export function modelSlots(
     field((face, value) => ({ ...face, edges: (face.edges ?? []).map((given, e) => (e === 2 ? { ...given, [name]: value } : given)) }));
   const { poles } = kPlate.faces[0].surface;
   const codes: ErrorCode[] = [
-    'bad-model', 'bad-knots', 'bad-weights', 'not-finite', 'bad-edge', 'bad-domain', 'degenerate', 'edge-apart', 'trims-cross', 'trim-open',
+    'bad-model', 'bad-knots', 'bad-weights', 'not-finite', 'bad-edge', 'bad-domain', 'degenerate', 'edge-apart', 'trims-cross', 'trim-open', 'trim-outside',
   ];
   const face = /`model\.faces|[Ff]ace 0/;
   const optional: readonly Kind[] = ['missing', 'null'];
@@ -499,6 +499,7 @@ export function modelSlots(
       ['surface.weights[0]', (v) => surface('weights')([v, 1, 1, 1]), kPositive, face],
       ['surface.domain', surface('domain'), ['missing'], face],
       ['face.reversed', field((given, reversed) => ({ ...given, reversed })), kFlag],
+      // Without an outer loop, the one given is a hole, along the border of the domain.
       ['face.outer', field((given, outer) => ({ ...given, outer })), ['missing'], face],
       ['face.loops', field((given, loops) => ({ ...given, loops })), ['missing', 'empty array'], face],
       ['face.loops[1]', field((given, loop) => ({ ...given, loops: [(given.loops ?? [])[0], loop] })), [], face],

@@ -112,7 +112,8 @@ const faults: [string, Face, ErrorCode, Place, RegExp][] = [
     /not inside/,
   ],
   ['a loop without area', kFlat, 'degenerate', { face: 0, loop: 1 }, /no area/],
-  ['loops of which none is the outer one', { ...plate([kLow]), outer: -1 }, 'degenerate', { face: 0 }, /no outer loop/],
+  ['an outer loop that is not there', { ...plate([kLow]), outer: 2 }, 'degenerate', { face: 0 }, /no outer loop/],
+  ['a hole along the border of the domain', { ...plate([kLow]), outer: -1 }, 'trim-outside', { face: 0, loop: 0 }, /leaves the surface's domain/],
 ];
 
 describe('faults', () => {
@@ -140,6 +141,15 @@ describe('faults', () => {
     expect(mesh.reports[0]).toMatchObject({ report: 'left-out', ...expected });
     expect(mesh.reports.filter(({ report }) => report === 'left-out')).toHaveLength(1);
     expect(opened.update().mesh.reports).toEqual(mesh.reports);
+    opened.dispose();
+  });
+
+  test('holes only: the domain is around them', () => {
+    const { loops = [], ...face } = plate([kLow, kHigh]);
+    const opened = new TrimmedSurface({ ...face, loops: loops.slice(1), outer: -1 });
+    const mesh = opened.tessellate();
+    expect(mesh.reports).toEqual([]);
+    expect(measure(mesh).area).toBeCloseTo(1 - 2 * 0.09, 6);
     opened.dispose();
   });
 

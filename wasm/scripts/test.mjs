@@ -21,7 +21,7 @@ Suites first, then words. Several folders add up; of other words, a C++ test's n
 and a file's name one.`;
 
 /** How many inputs each fuzzer tries; \`npm run fuzz\` goes on for longer. */
-const kFuzzRuns = { session: 12_000, span: 8_000, other: 60_000 };
+const kFuzzRuns = { session: 12_000, span: 8_000, surfaces: 1_000, other: 60_000 };
 
 /** Suites and the words after them. */
 function readArguments(args) {

@@ -232,8 +232,9 @@ class Part {
       shape.push(flagIn(reversed, `${name}.reversed`) ? kReversed : 0);
       this.#surface(surface, `${name}.surface`);
       if (outer !== undefined && !Number.isInteger(outer)) throw mustBe('bad-model', `${name}.outer`, 'the index of a loop, or -1', outer);
-      const around = outer === undefined ? (list.length > 0 ? 0 : -1) : (outer as number);
-      shape.push(around >= 0 && around < list.length ? around + 1 : 0);
+      const around = list.length === 0 ? -1 : outer === undefined ? 0 : (outer as number);
+      // One that is not there is the core's to name.
+      shape.push(around >= -1 && around < list.length ? around + 1 : list.length + 1);
       shape.push(list.length);
       for (let l = 0; l < list.length; l++) {
         at = { face: number, loop: l };

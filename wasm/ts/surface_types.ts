@@ -67,7 +67,10 @@ export interface ModelFace {
   readonly surface: NurbsSurface;
   /** Whether the face's normal is -(Su × Sv). Default `false`. */
   readonly reversed?: boolean;
-  /** The index of the loop around the face; all others are holes. Default: the first, or -1 if there are no loops. */
+  /**
+   * The index of the loop around the face; all others are holes. -1: all are holes, and the domain is around them.
+   * Default: the first, or -1 if there are no loops.
+   */
   readonly outer?: number;
   /** Default: none, and the face is all of the surface. Directions do not matter. */
   readonly loops?: readonly FaceLoop[];

@@ -14,7 +14,7 @@ using namespace sffuzz;
 namespace {
 
 /// Calls of the progress function, each after a million units of work, until an input ends.
-constexpr uint32_t kMostCalls = 60;
+constexpr uint32_t kMostCalls = 12;
 uint32_t callsLeft;
 
 template <class T>
@@ -49,11 +49,11 @@ void spoil(std::vector<uint32_t>& shape, std::vector<double>& numbers, Bytes& in
 
 SfSamplingSettings settingsOf(Bytes& in) {
   SfSamplingSettings s{};
-  s.tolerance = std::pow(2.0, -double(in.below(12)));
+  s.tolerance = std::pow(2.0, -double(in.below(9)));
   s.angle = in.below(4) == 0 ? 100 : 0.1 + 0.1 * in.below(20);
   s.aspect = in.below(4) == 0 ? HUGE_VAL : 1 + in.below(9);
   s.maxTriangles = in.below(5) == 0 ? 40 * in.byte() : HUGE_VAL;
-  s.maxSeconds = in.below(8) == 0 ? in.below(20) : HUGE_VAL;
+  s.maxSeconds = in.below(8) == 0 ? in.below(kMostCalls) : HUGE_VAL;
   if (in.below(3) > 0) return s;
   s.hasCamera = 1;
   for (double* m = &s.m0; m <= &s.m15; ++m) *m = in.below(9) == 0 ? 0.1 * in.byte() : 0;

@@ -300,6 +300,20 @@ TEST_CASE("TrimmedSurfaces: what a camera does not see is coarse, and what is ne
   CHECK(triangles() < far);
 }
 
+TEST_CASE("TrimmedSurfaces: whatever is allowed, no triangle is without area") {
+  std::mt19937 random(5);
+  for (const ModelBuilder& model : {sphere(1), solidCylinder(1, 20), wavyPlate(random, 0.3, 3)})
+    for (const double tolerance : {1.0, 1e9, Sampling::kNoLimit}) {
+      Opened opened(model);
+      Tessellation told;
+      const TessellationLimits none;
+      REQUIRE(opened.surfaces->tessellate(samplingOf(tolerance), none, opened.work, told));
+      for (const SurfaceReport& report : told.reports)
+        CHECK(report.kind == SurfaceReport::CrossingSamples);
+      check(*opened.surfaces, told);
+    }
+}
+
 TEST_CASE("TrimmedSurfaces: poles move, and a move that is refused leaves all as it was") {
   std::mt19937 random(3);
   Opened plate(wavyPlate(random, 0.1, 4));

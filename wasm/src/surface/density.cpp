@@ -25,6 +25,8 @@ constexpr double kLongCell = 4.5;
 /// as its nearest point at no more than this loss.
 constexpr uint32_t kPartLevels = 4, kParts = 1u << kPartLevels;
 constexpr double kOneTolerance = 0.7;
+/// The most that is ever allowed, of the radius of a face's ball: past that a closed surface could become two sides of one triangle.
+constexpr double kCoarsest = 0.15;
 /// How often the smallest parts are quartered, to see which of it is shown and how near it is.
 constexpr int kNearLevels = 7;
 /// How many cells an interval of an edge may be long.
@@ -313,10 +315,11 @@ Allowance Density::allowanceOf(const NurbsSurface& surface, const Fineness& fine
   const double radius = 0.55 * distance(least, greatest);
   const double finest = fineness.tolerance(center, radius);
   if (finest == Sampling::kNoLimit || finest > kOneTolerance * fineness.tolerance(center, 0))
-    return Allowance(finest);
+    return Allowance(std::min(finest, kCoarsest * radius));
   if (balls_.empty()) findBalls(surface);
   std::vector<double> parts(kParts * kParts);
   fillParts(fineness, 0, 0, 0, parts);
+  for (double& part : parts) part = std::min(part, kCoarsest * radius);
   return Allowance(box_, kParts, std::move(parts));
 }
 
