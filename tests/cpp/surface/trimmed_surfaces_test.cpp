@@ -308,8 +308,8 @@ TEST_CASE("TrimmedSurfaces: whatever is allowed, no triangle is without area") {
       Tessellation told;
       const TessellationLimits none;
       REQUIRE(opened.surfaces->tessellate(samplingOf(tolerance), none, opened.work, told));
-      for (const SurfaceReport& report : told.reports)
-        CHECK(report.kind == SurfaceReport::CrossingSamples);
+      for (const Report& report : told.reports)
+        CHECK(report.report == SurfaceReport::CrossingSamples);
       check(*opened.surfaces, told);
     }
 }

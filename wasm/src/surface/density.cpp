@@ -16,8 +16,8 @@ constexpr int kMostLooks = 4;
 constexpr double kMostCells = 1 << 21;
 /// Most intervals of one parameter.
 constexpr size_t kMostLines = 1 << 14;
-/// How often what is allowed is doubled at most to keep to that.
-constexpr int kMostTries = 60;
+/// How often more is allowed to keep to that; the last time makes everything allowed.
+constexpr int kMostTries = 11;
 constexpr double kHalfway = 1.38;
 /// Cells up to this aspect have triangles beside them that are as good as can be in space.
 constexpr double kLongCell = 4.5;
@@ -419,8 +419,8 @@ void Density::choose(const Allowance& wanted, const Fineness& fineness, Lines& l
     chooseAny(allowance, turn, lines);
     const double cells = cellsOf(lines);
     if (cells <= kMostCells) break;
-    // About as many as errors are smaller.
-    const double factor = std::max(2.0, cells / kMostCells);
+    // About as many as errors are smaller; where there are as many as can be, that says nothing.
+    const double factor = std::max(std::ldexp(1, 1 << k), cells / kMostCells);
     allowance = allowance.times(factor), turn *= factor;
   }
   shapeCells(fineness.aspect(), lines);

@@ -228,7 +228,8 @@ std::unique_ptr<TrimmedSurfaces> TrimmedSurfaces::open(Model&& model, Work& work
 }
 
 /// Chooses the lines of all faces and the samples of all edges, and marks the faces that change.
-void TrimmedSurfaces::chooseAll(const Sampling& sampling, const Fineness& fineness, bool updates) {
+bool TrimmedSurfaces::chooseAll(const Sampling& sampling, const Fineness& fineness, bool updates,
+                                Work& work) {
   const uint32_t faces = uint32_t(model_.faces.size()), edges = uint32_t(model_.edges.size());
   std::fill(longest_.begin(), longest_.end(), Sampling::kNoLimit);
   const auto sameNodes = [](const LineTree::Choice& a, const LineTree::Choice& b) {
@@ -261,6 +262,7 @@ void TrimmedSurfaces::chooseAll(const Sampling& sampling, const Fineness& finene
         isChanged_[f] = 1;
       }
       chosenFor_[f] = target, allowances_[f] = std::move(allowance);
+      if (!work.tick(100 * (chosen_[f].u.nodes.size() + chosen_[f].v.nodes.size()))) return false;
     }
     if (sampling.aspect == Sampling::kNoLimit) continue;
     const double longest = density.longest(chosen_[f]);
@@ -270,19 +272,22 @@ void TrimmedSurfaces::chooseAll(const Sampling& sampling, const Fineness& finene
         of = std::min(of, longest);
       }
   }
-  for (uint32_t e = 0; e < edges; ++e)
-    if (trees_[e] && selectEdge(e, fineness))
-      for (uint32_t i = firstUses_[e]; i < firstUses_[e + 1]; ++i) {
-        const uint32_t f = model_.uses[usesOf_[i]].face;
-        isChanged_[f] = !model_.faces[f].isLeftOut;
-      }
+  for (uint32_t e = 0; e < edges; ++e) {
+    if (!trees_[e] || !selectEdge(e, fineness)) continue;
+    for (uint32_t i = firstUses_[e]; i < firstUses_[e + 1]; ++i) {
+      const uint32_t f = model_.uses[usesOf_[i]].face;
+      isChanged_[f] = !model_.faces[f].isLeftOut;
+    }
+    if (!work.tick(100 * samples_.of[e].size())) return false;
+  }
   numberPlaces();
+  return true;
 }
 
 /// Meshes the faces that change.
 bool TrimmedSurfaces::meshFaces(const Sampling& sampling, bool updates, Work& work) {
   const Fineness fineness(sampling);
-  chooseAll(sampling, fineness, updates);
+  if (!chooseAll(sampling, fineness, updates, work)) return false;
   const uint32_t faces = uint32_t(model_.faces.size());
   std::vector<uint32_t> open;
   std::vector<uint8_t> isOpen(isChanged_);
@@ -415,7 +420,11 @@ bool TrimmedSurfaces::fewEnough(const Sampling& given, const TessellationLimits&
   }
   // Errors fall with the square of lengths, so about with the number of triangles.
   for (int k = 0; isDone && triangles() > limits.maxTriangles && k < 40; ++k) {
-    factor *= std::max(1.15, triangles() / limits.maxTriangles);
+    // Then all is as coarse as it can be.
+    if (given.tolerance * factor > distance(model_.least, model_.greatest) &&
+        (!given.camera || given.pixels * factor > given.camera->width + given.camera->height))
+      break;
+    factor *= std::max(1.15, triangles() / std::max(limits.maxTriangles, 1.0));
     used.tolerance = given.tolerance * factor, used.pixels = given.pixels * factor;
     used.angle = given.angle * factor;
     isDone = meshFaces(used, false, work);

@@ -79,7 +79,7 @@ class TrimmedSurfaces {
                 std::vector<uint32_t>& touched);
   void leaveOut(uint32_t face, const ModelFault& fault);
   bool meshFaces(const Sampling& sampling, bool updates, Work& work);
-  void chooseAll(const Sampling& sampling, const Fineness& fineness, bool updates);
+  bool chooseAll(const Sampling& sampling, const Fineness& fineness, bool updates, Work& work);
   bool fewEnough(const Sampling& given, const TessellationLimits& limits, bool updates, Work& work,
                  Sampling& used, double& factor);
   void tell(const Sampling& sampling, double factor, bool isOver, Tessellation& result);
