@@ -134,8 +134,9 @@ test('the camera followed: finer when near, kept when frozen', async ({ quietPag
   await expect(summary(page)).toHaveText(/^25 faces/);
   await page.getByRole('switch', { name: 'Follow the camera' }).click();
   await page.waitForFunction(() => window.__surfaces?.meshed?.of.sampling.camera !== undefined);
-  const far = await stateOf(page);
+  // Frozen first: until then the view may still be coming to rest.
   await page.getByRole('switch', { name: 'Freeze' }).click();
+  const far = await stateOf(page);
   const canvas = await page.locator('canvas').first().boundingBox();
   if (!canvas) throw new Error('There is no canvas.');
   await page.mouse.move(canvas.x + canvas.width / 2, canvas.y + canvas.height / 2);
