@@ -80,7 +80,7 @@ test('the examples: meshed within the tolerance, those that close without a crac
   expect(first.faces).toBe(3);
   // The rims of two holes, which no other face has.
   expect(first.openEdges).toBeGreaterThan(8);
-  for (const [title, faces] of [['Shell with windows', 1], ['Waves', 1], ['Assembly', 25]] as const) {
+  for (const [title, faces] of [['Teapot', 32], ['Lofted shell', 1], ['Waves', 1], ['Assembly', 25]] as const) {
     await page.getByRole('button', { name: title }).click();
     await expect(summary(page)).toHaveText(new RegExp(`^${faces} face`));
     const { reports, deviation } = await stateOf(page);

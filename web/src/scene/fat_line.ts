@@ -1,6 +1,6 @@
 // Lines of a width in pixels. Each segment is a quad of its own, not an instance: where the processor draws, instances
 // take ten times as long.
-import { BufferAttribute, BufferGeometry, Color, DoubleSide, Group, Mesh, ShaderMaterial, Sphere, Vector2 } from 'three';
+import { BufferAttribute, BufferGeometry, Color, DoubleSide, Group, Mesh, ShaderMaterial, Sphere, Vector2, Vector4 } from 'three';
 import type { Point } from '../shapes/vec.ts';
 import { lineCount, type Lines } from '../shapes/lines.ts';
 import { toScene, type Placement } from './placement.ts';
@@ -111,6 +111,8 @@ export function pathOf(points: readonly Point[], isClosed: boolean, placement: P
 /** What a line of one order higher is nearer by, as a share of half the depth that is drawn. */
 const kNearer = 4e-6;
 
+const viewport = new Vector4();
+
 /** One for each look, for good: the last material that goes takes its program with it, which is slow to make anew. */
 const materials = new Map<string, ShaderMaterial>();
 
@@ -149,7 +151,9 @@ export class FatLines {
     line.frustumCulled = false;
     line.renderOrder = look.order ?? 0;
     line.onBeforeRender = (renderer) => {
-      renderer.getSize(line.material.uniforms.uSize.value as Vector2);
+      // Of the picture that is drawn: it may be an inset.
+      const { z, w } = renderer.getCurrentViewport(viewport);
+      (line.material.uniforms.uSize.value as Vector2).set(z, w).divideScalar(renderer.getPixelRatio());
     };
     this.lines.push(line);
     this.object.add(line);

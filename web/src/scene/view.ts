@@ -9,11 +9,18 @@ export interface ViewOptions {
   readonly pixelRatio?: number;
 }
 
+/** What is drawn over the picture. */
+export interface Drawing {
+  draw(renderer: WebGLRenderer, scene: Scene): void;
+}
+
 export class View implements Screen {
   readonly scene = new Scene();
   readonly renderer: WebGLRenderer;
   size: readonly [number, number] = [0, 0];
   readonly pixelRatio = signal(1);
+  /** Pictures over this one. */
+  readonly insets = new Set<Drawing>();
   private current: Viewpoint | null = null;
   private readonly animations = new Set<Animation>();
   private readonly cameraListeners = new Set<() => void>();
@@ -119,5 +126,6 @@ export class View implements Screen {
     }
     this.current.prepare();
     this.renderer.render(this.scene, this.current.camera);
+    for (const inset of this.insets) inset.draw(this.renderer, this.scene);
   }
 }

@@ -11,7 +11,8 @@ export type Animation = (now: number) => boolean;
 
 /** What a viewpoint asks of the view it is in. */
 export interface Screen {
-  readonly canvas: HTMLCanvasElement;
+  /** What the pointer and the wheel turn it on. */
+  readonly canvas: HTMLElement;
   /** In CSS pixels. */
   readonly size: readonly [width: number, height: number];
   invalidate(): void;

@@ -1,14 +1,18 @@
-// What the mode draws besides handles: the mesh and the edges of the model; and the picture that the mesh is for.
+// What the mode draws besides handles: the mesh and the edges of the model; the picture that the mesh is for, and a second view.
 import { signal } from '@preact/signals';
 import { Matrix4, Vector3 } from 'three';
 import type { Change } from 'soapfilm/surfaces';
 import { FatLines } from '../../scene/fat_line.ts';
+import { Inset, kInsetLayer } from '../../scene/inset.ts';
 import type { ModeScene } from '../../scene/mode_scene.ts';
 import type { Placement } from '../../scene/placement.ts';
 import type { Stage } from '../../scene/stage.ts';
+import { add, boundsOf, scale } from '../../shapes/vec.ts';
+import { boxOfGroup } from '../../state/document.ts';
 import { mode, shown } from '../../state/store.ts';
 import { coloring, view } from './looks.ts';
-import { frozen, meshed, picture, settings } from './meshing.ts';
+import { frozen, meshed, model, picture, settings, type Picture } from './meshing.ts';
+import { paint } from './paint.ts';
 import { kMode } from './settings.ts';
 import { SurfaceMesh } from './surface_mesh.ts';
 
@@ -35,7 +39,8 @@ export function drawSurfaces(stage: Stage, scene: ModeScene): void {
       wire: colors.wire,
       wires: shown.value.wires,
       smooth: view.value.smooth,
-      coloring: coloring.value,
+      checks: coloring.value === 'checks',
+      paint: (mesh: Change['mesh']) => paint(coloring.value, mesh, meshed.value?.of.model ?? {}),
     };
     surface.update(meshed.value?.change ?? null, look);
     uploaded.value = surface.uploaded;
@@ -52,6 +57,7 @@ export function drawSurfaces(stage: Stage, scene: ModeScene): void {
     if (now === null || !view.value.edges) return;
     edges.put(segmentsOf(now.change, placement.value), { color: theme.value.curves.line, width: kEdge });
   });
+  drawSecond(stage, scene);
   let timer: ReturnType<typeof setTimeout> | undefined;
   const look = (): void => {
     if (timer !== undefined) return;
@@ -73,6 +79,45 @@ export function drawSurfaces(stage: Stage, scene: ModeScene): void {
   stage.view.follow(() => {
     if (settings.value.follows && !frozen.value) look();
   });
+}
+
+/** The second view: how the mesh is elsewhere, while it follows the camera; with what the camera sees. */
+function drawSecond({ view: screen, theme }: Stage, { root, placement, viewpoint, options }: ModeScene): void {
+  const inset = new Inset(screen, 'Second view');
+  const frustum = new FatLines();
+  root.add(frustum.object);
+  let framed: unknown = null;
+  screen.follow(() => {
+    const isShown = mode.value === kMode && settings.value.follows && view.value.second && model.value !== null;
+    inset.viewpoint.place(placement.value);
+    inset.show(isShown);
+    if (!isShown || framed === model.value) return;
+    framed = model.value;
+    const box = boxOfGroup(options.group.peek());
+    inset.viewpoint.follow(boundsOf(box).diagonal / 2, true);
+    // From beside the camera, and above it: what it sees is then seen from the side.
+    const { right, toViewer } = viewpoint.axes();
+    inset.viewpoint.frame(box, add(add(toViewer, scale(right, 0.9)), [0, 0, 0.5]), true);
+  });
+  screen.follow(() => {
+    frustum.clear();
+    const now = picture.value;
+    if (now === null || !settings.value.follows) return;
+    frustum.put(frustumOf(now, placement.value), { color: theme.value.curves.selected, width: kEdge });
+    frustum.object.traverse((object) => { object.layers.set(kInsetLayer); });
+  });
+}
+
+/** The pyramid that a picture shows, as far as the middle of the scene. */
+function frustumOf({ eye, viewProjection }: Picture, { center, unit }: Placement): Float32Array {
+  const toWorld = new Matrix4().fromArray(viewProjection).invert();
+  const inScene = (p: Vector3): Vector3 => p.set((p.x - center[0]) / unit, (p.y - center[1]) / unit, (p.z - center[2]) / unit);
+  const from = inScene(new Vector3(...eye));
+  const reach = Math.max(from.length(), 1e-3);
+  const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) =>
+    inScene(new Vector3(x, y, 0).applyMatrix4(toWorld)).sub(from).normalize().multiplyScalar(reach).add(from),
+  );
+  return Float32Array.from(corners.flatMap((corner, k) => [from, corner, corner, corners[(k + 1) % 4]].flatMap((p) => p.toArray())));
 }
 
 /** The edges of a mesh as segments in the scene. */

@@ -1,6 +1,7 @@
 // A few models to begin with, made by formulas.
 import type { Face, Model, ModelFace, NurbsCurve } from 'soapfilm/surfaces';
 import type { Point } from '../../shapes/vec.ts';
+import { teapot } from './teapot.ts';
 
 export interface Example {
   readonly title: string;
@@ -151,9 +152,16 @@ function assembly(): Model {
   return { instances: [...instances, { part: shell(), matrix: [1.6, 0, 0, 0, 0, 1.6, 0, 0, 0, 0, 1.6, 0] }] };
 }
 
+/** With a window in each quarter of its belly. */
+function pierced(): Model {
+  const window = (curve: NurbsCurve) => ({ curve, range: rangeOf(curve) });
+  return teapot((patch) => (patch >= 4 && patch < 8 ? window(lobed([0.5, 0.5], 0.2, 3 + (patch % 3))) : null));
+}
+
 export const kExamples: readonly Example[] = [
   { title: 'Drilled cylinder', view: [-1.6, 1.2, 0.8], model: cylinder },
-  { title: 'Shell with windows', view: [0.6, -1.2, 1.1], model: shell },
+  { title: 'Teapot', view: [0.5, -1.4, 0.7], model: pierced },
+  { title: 'Lofted shell', view: [0.6, -1.2, 1.1], model: shell },
   { title: 'Waves', view: [0.5, -1, 1.3], model: waves },
   { title: 'Assembly', view: [0.4, -1.4, 0.9], model: assembly },
 ];

@@ -2,6 +2,7 @@
 import { computed, signal } from '@preact/signals';
 import type { Change, Model, Sampling } from 'soapfilm/surfaces';
 import type { TrimmedModelHandle } from 'soapfilm/worker';
+import type { Point } from '../../shapes/vec.ts';
 import { createWork, plainFailure, type Failure } from '../../state/work.ts';
 import { kMode, surfaceGroup, type ModelShape } from './settings.ts';
 
@@ -18,7 +19,14 @@ export interface Meshed {
   readonly took: number;
 }
 
-export type Picture = NonNullable<Sampling['camera']>;
+/** What the camera sees. */
+export interface Picture {
+  readonly eye: Point;
+  /** [16] column by column */
+  readonly viewProjection: readonly number[];
+  readonly width: number;
+  readonly height: number;
+}
 
 /** The picture that the mesh is for; null: none, or not yet. Set by what draws. */
 export const picture = signal<Picture | null>(null);

@@ -5,6 +5,7 @@ import { distanceOf, type Eye, type Spot } from '../../scene/eye.ts';
 import type { Drawn, DrawnKind, Hit, Layer, Marks } from '../../scene/kind.ts';
 import { boxOfPoints, type Box } from '../../shapes/vec.ts';
 import type { Item, Place } from '../../state/document.ts';
+import { facesIn } from './faces.ts';
 import { handlesOf, placeOf, withMoved } from './handles.ts';
 import { kModel, type ModelShape } from './settings.ts';
 
@@ -35,21 +36,9 @@ function boxOf(model: Model): Box {
   const known = boxes.get(model);
   if (known) return known;
   const all: number[] = [];
-  const collect = ({ faces = [], instances = [], parts }: Model, place: (p: readonly number[]) => readonly number[]): void => {
-    for (const { surface } of faces) for (const pole of surface.poles) all.push(...place(Array.from(pole, Number)));
-    for (const { part, matrix: m } of instances) {
-      const of = typeof part === 'object' ? part : (parts as Readonly<Record<string | number, Model>> | undefined)?.[part];
-      if (of === undefined) continue;
-      const at = (row: number, [x, y, z]: readonly number[]): number =>
-        m === undefined
-          ? [x, y, z][row]
-          : m.length === 16
-            ? m[row] * x + m[4 + row] * y + m[8 + row] * z + m[12 + row]
-            : m[4 * row] * x + m[4 * row + 1] * y + m[4 * row + 2] * z + m[4 * row + 3];
-      collect(of, (p) => place([at(0, p), at(1, p), at(2, p)]));
-    }
-  };
-  collect(model, (p) => p);
+  for (const { surface, place } of facesIn(model)) {
+    for (const [x, y, z] of surface.poles) all.push(...place([x as number, y as number, z as number]));
+  }
   const box = boxOfPoints(new Float64Array(all.filter(Number.isFinite)), 3);
   boxes.set(model, box);
   return box;

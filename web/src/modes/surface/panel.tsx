@@ -7,7 +7,7 @@ import { setIn, shown } from '../../state/store.ts';
 import { openExample } from './actions.ts';
 import { uploaded } from './drawing.ts';
 import { kExamples } from './examples.ts';
-import { coloring, view, type Coloring } from './looks.ts';
+import { coloring, kBandColor, kCellColor, kDeviationRamp, view, type Coloring } from './looks.ts';
 import { frozen, meshed, meshing, model, settings } from './meshing.ts';
 import './surface.css';
 import { kMaxAngle, kMaxAspect, kMaxPixels, kMaxRelative, kMinRelative, surfaceGroup, type SurfaceSettings } from './settings.ts';
@@ -41,9 +41,10 @@ export function SurfacePanel() {
       <Fineness />
       <Section title="Colours">
         <Segments label="Colours" hideLabel choices={kColorings} value={coloring.value} onChange={(value) => (coloring.value = value)} />
+        <Key />
       </Section>
       <Show>
-        <Flags of={view} labels={{ edges: 'Outlines', smooth: 'Smooth' }} />
+        <Flags of={view} labels={{ edges: 'Outlines', smooth: 'Smooth', ...(settings.value.follows && { second: 'Second view' }) }} />
         <Flags of={shown} labels={{ wires: 'Triangles', vertices: 'Poles', grid: 'Grid' }} />
       </Show>
       <Examples of={kExamples} open={openExample} />
@@ -55,8 +56,28 @@ const kColorings: readonly Choice<Coloring>[] = [
   { value: 'plain', label: 'Plain', title: 'Both sides in the colours of films' },
   { value: 'faces', label: 'Faces', title: 'Each face in a colour of its own' },
   { value: 'strips', label: 'Strips', title: 'Each triangle strip in a colour of its own: long ones are of the grid, short ones of the band along trimming curves' },
-  { value: 'checks', label: 'Checks', title: 'The surfaces’ parameters, as squares' },
+  { value: 'cells', label: 'Cells', title: 'Cells of the grid, and the band between them and the trimming curves' },
+  { value: 'deviation', label: 'Error', title: 'How far each triangle is off its surface' },
+  { value: 'checks', label: 'UV', title: 'The surfaces’ parameters, as squares' },
 ];
+
+/** What colours say. */
+function Key() {
+  const largest = meshed.value?.change.mesh.deviation ?? 0;
+  if (coloring.value === 'cells') {
+    return (
+      <p class="surface-key">
+        <i style={{ background: kCellColor }} /> Grid <i style={{ background: kBandColor }} /> Band
+      </p>
+    );
+  }
+  if (coloring.value !== 'deviation') return null;
+  return (
+    <p class="surface-key">
+      0 <i class="ramp" style={{ background: `linear-gradient(to right, ${kDeviationRamp.join(', ')})` }} /> {short(largest)}
+    </p>
+  );
+}
 
 const short = (value: number): string => (value === 0 ? '0' : value.toPrecision(2));
 

@@ -1,9 +1,9 @@
-// The mesh on the graphics card. In plain colours an update uploads only the ranges that it has written; colours of strips and the
+// The mesh on the graphics card. In plain colours an update uploads only the ranges that it has written; colours of triangles and the
 // edges of triangles need corners of their own, and are built anew.
-import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Mesh, Sphere, type ShaderMaterial } from 'three';
+import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, Sphere, type ShaderMaterial } from 'three';
 import type { Change } from 'soapfilm/surfaces';
 import { colorUniforms, kCorner, kLight, kWire, setColors, surfaceMaterial } from '../../scene/glsl.ts';
-import { hueOf, type Coloring } from './looks.ts';
+import type { Painted } from './paint.ts';
 
 /** More triangles than this are drawn without edges and in plain colours. */
 const kMostSpread = 600_000;
@@ -65,7 +65,9 @@ export interface MeshLook {
   readonly wire: string;
   readonly wires: boolean;
   readonly smooth: boolean;
-  readonly coloring: Coloring;
+  readonly checks: boolean;
+  /** The colours of a mesh's triangles; null: all have those above. */
+  readonly paint: (mesh: Change['mesh']) => Painted | null;
 }
 
 export class SurfaceMesh {
@@ -100,12 +102,13 @@ export class SurfaceMesh {
       return;
     }
     const isSmall = mesh.triangles.length <= 3 * kMostSpread;
-    const isSpread = isSmall && (look.wires || look.coloring === 'faces' || look.coloring === 'strips');
+    const colors = isSmall ? look.paint(mesh) : null;
+    const isSpread = colors !== null || (isSmall && look.wires);
     uniforms.uSmooth.value = look.smooth ? 1 : 0;
     uniforms.uWireOpacity.value = isSpread && look.wires ? 0.42 : 0;
-    uniforms.uTinted.value = isSpread && (look.coloring === 'faces' || look.coloring === 'strips') ? 1 : 0;
-    uniforms.uChecks.value = look.coloring === 'checks' ? 1 : 0;
-    if (isSpread) this.spread(mesh, look.coloring);
+    uniforms.uTinted.value = colors ? 1 : 0;
+    uniforms.uChecks.value = look.checks ? 1 : 0;
+    if (isSpread) this.spread(mesh, colors);
     else this.patch(change);
     this.isPlain = !isSpread;
     this.shown = mesh;
@@ -140,9 +143,10 @@ export class SurfaceMesh {
     if (geometry.index) send(geometry.index, indexRanges, 1);
   }
 
-  /** Corner by corner; in colours of faces, or triangle by triangle of the strips in theirs. */
-  private spread(mesh: Change['mesh'], coloring: Coloring): void {
-    const { triangles, tints } = coloring === 'strips' ? fromStrips(mesh) : { triangles: mesh.triangles, tints: faceTints(mesh) };
+  /** Corner by corner, where the triangles of one vertex differ in colour or have edges. */
+  private spread(mesh: Change['mesh'], colors: Painted | null): void {
+    const triangles = colors?.triangles ?? mesh.triangles;
+    const tints = colors?.tints ?? new Float32Array(3 * triangles.length);
     const put = (values: Float32Array, size: number): BufferAttribute => {
       const all = new Float32Array(size * triangles.length);
       for (let i = 0; i < triangles.length; i++) for (let k = 0; k < size; k++) all[size * i + k] = values[size * triangles[i] + k];
@@ -161,35 +165,4 @@ export class SurfaceMesh {
     geometry.setIndex(index);
     this.object.geometry = geometry;
   }
-}
-
-const tintOf = (i: number): readonly number[] => new Color().setHSL(hueOf(i), 0.5, 0.62).toArray();
-
-function faceTints({ triangles, faceStarts }: Change['mesh']): Float32Array {
-  const tints = new Float32Array(3 * triangles.length);
-  for (let face = 0; face + 1 < faceStarts.length; face++) {
-    const tint = tintOf(face);
-    for (let i = 3 * faceStarts[face]; i < 3 * faceStarts[face + 1]; i++) tints.set(tint, 3 * i);
-  }
-  return tints;
-}
-
-function fromStrips({ strips, stripStarts }: Change['mesh']): { triangles: Uint32Array; tints: Float32Array } {
-  const triangles: number[] = [];
-  const colors: number[] = [];
-  for (let s = 0; s + 1 < stripStarts.length; s++) {
-    for (let i = stripStarts[s]; i + 2 < stripStarts[s + 1]; i++) {
-      const [a, b, c] = [strips[i], strips[i + 1], strips[i + 2]];
-      if (a === b || b === c || c === a) continue;
-      if ((i - stripStarts[s]) % 2 === 0) triangles.push(a, b, c);
-      else triangles.push(b, a, c);
-      colors.push(s);
-    }
-  }
-  const tints = new Float32Array(3 * triangles.length);
-  colors.forEach((strip, t) => {
-    const tint = tintOf(strip);
-    for (let k = 0; k < 3; k++) tints.set(tint, 9 * t + 3 * k);
-  });
-  return { triangles: Uint32Array.from(triangles), tints };
 }
