@@ -128,6 +128,46 @@ test('a diamond dragged: the trimming curve moves with it, and back with undo', 
   await expect.poll(poleOf).toEqual(before);
 });
 
+test('colours: each with what it says', async ({ quietPage: page }) => {
+  await openMode(page);
+  const key = page.locator('.surface-key');
+  const choose = (name: string) => page.locator('label.segment', { hasText: name }).click();
+  await expect(key).toHaveCount(0);
+  await choose('Cells');
+  await expect(key).toHaveText('Grid Band');
+  await choose('Error');
+  const { deviation } = await stateOf(page);
+  await expect(key).toHaveText(`0 ${deviation.toPrecision(2)}`);
+  await choose('Strips');
+  await expect(key).toHaveCount(0);
+});
+
+test('the second view: with the camera followed, where it is wanted', async ({ quietPage: page }) => {
+  await openMode(page);
+  const second = page.locator('.inset');
+  await expect(second).toBeHidden();
+  await page.getByRole('switch', { name: 'Follow the camera' }).click();
+  await expect(second).toBeVisible();
+  await page.waitForFunction(() => window.__surfaces?.meshed?.of.sampling.camera !== undefined);
+  const canvas = page.locator('canvas').first();
+  const pictureOf = async (): Promise<string> => (await second.screenshot()).toString('base64');
+  const before = await pictureOf();
+  const eye = () => page.evaluate(() => JSON.stringify(window.__surfaces?.meshed?.of.sampling.camera?.eye));
+  const seenFrom = await eye();
+  const at = await second.boundingBox();
+  if (!at) throw new Error('There is no second view.');
+  // It turns by itself: the picture that the mesh is for stays.
+  await page.mouse.move(at.x + at.width / 2, at.y + at.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(at.x + at.width / 2 + 60, at.y + at.height / 2, { steps: 4 });
+  await page.mouse.up();
+  await expect.poll(pictureOf).not.toBe(before);
+  expect(await eye()).toBe(seenFrom);
+  await page.getByRole('switch', { name: 'Second view' }).click();
+  await expect(second).toBeHidden();
+  await expect(canvas).toBeVisible();
+});
+
 test('the camera followed: finer when near, kept when frozen', async ({ quietPage: page }) => {
   await openMode(page);
   await page.getByRole('button', { name: 'Assembly' }).click();
