@@ -8,6 +8,7 @@
 #include "polygon/sweep/sweep.h"
 #include "polygon/triangulate.h"
 #include "surface/band_patch.h"
+#include "surface/face_strips.h"
 #include "surface/trace.h"
 #include "triangles/triangle_mesh.h"
 
@@ -49,25 +50,6 @@ struct Rings {
   }
 };
 
-/// Turns triangles, and strips from one on, to the other side.
-void turnRound(FaceMesh& mesh, size_t firstStrip) {
-  for (size_t i = 0; i < mesh.triangles.size(); i += 3)
-    std::swap(mesh.triangles[i + 1], mesh.triangles[i + 2]);
-  // A strip: backwards if it has an odd number of indices, else with its first one twice.
-  const std::vector<uint32_t> strips = mesh.strips, starts = mesh.stripStarts;
-  mesh.strips.resize(starts[firstStrip]), mesh.stripStarts.resize(firstStrip + 1);
-  for (size_t s = firstStrip; s + 1 < starts.size(); ++s) {
-    const uint32_t from = starts[s], to = starts[s + 1];
-    if ((to - from) % 2 == 1) {
-      for (uint32_t i = to; i > from; --i) mesh.strips.push_back(strips[i - 1]);
-    } else {
-      mesh.strips.push_back(strips[from]);
-      mesh.strips.insert(mesh.strips.end(), strips.begin() + from, strips.begin() + to);
-    }
-    mesh.stripStarts.push_back(uint32_t(mesh.strips.size()));
-  }
-}
-
 }  // namespace
 
 void FaceMesh::clear() {
@@ -106,7 +88,7 @@ struct FaceMesher::State {
   std::vector<Vec3> loopAt;
   // For the triangulators.
   std::vector<double> xy, islandXy;
-  std::vector<uint32_t> starts, vertices, bandStrips, bandStripStarts, allTriangles, changed;
+  std::vector<uint32_t> starts, vertices, changed;
   std::vector<uint32_t> bandFound;
   std::vector<double> middleUs, middleVs;
   std::vector<uint32_t> known, opposite;
@@ -139,7 +121,8 @@ struct FaceMesher::State {
   // Of a band that was patched: the triangles that stay, as they were, and their strips.
   std::vector<uint32_t> oldCorners;
   StripLinks bandLinks;
-  std::vector<uint32_t> quadStrips, quadStarts, quadTriangles;
+  GridQuads quads;
+  FaceStrips faceStrips;
 
   Point2 scaled(Point2 uv) const {
     return {(uv.x - origin.x) * scale.x, (uv.y - origin.y) * scale.y};
@@ -459,6 +442,7 @@ void FaceMesher::State::measureCells(const Density::Lines& lines, bool& isRefine
   isRefined = false;
   mesh->excess = 0;
   halvedU.assign(nu - 1, 0), halvedV.assign(nv - 1, 0);
+  quads.alongU = areRowsCheaper(trace.runs);
   if (trace.runs.empty()) return;
   const auto at = [](const std::vector<double>& of, size_t i) {
     return Vec3{of[3 * i], of[3 * i + 1], of[3 * i + 2]};
@@ -520,8 +504,8 @@ void FaceMesher::State::measureCells(const Density::Lines& lines, bool& isRefine
     });
     if (isNewU[i]) {
       // Of two diagonals that both are near enough, the one whose strips need no index to begin with.
-      const bool easy = model.faces[face].isReversed;
-      const bool isNear = most[easy] <= 0.5 * allowance.betweenU(us[i], us[i + 1]);
+      const bool easy = startsEasilyRising(quads.alongU, model.faces[face].isReversed);
+      const bool isNear = most[easy] <= 0.7 * allowance.betweenU(us[i], us[i + 1]);
       strip = {isNear ? easy : most[1] < most[0], 0};
     }
     strip.off = std::max(strip.off, most[strip.rises]);
@@ -593,28 +577,21 @@ bool FaceMesher::State::meshGrid(Density::Lines& lines) {
   return true;
 }
 
-/// Quads of the whole cells, in one strip a run.
+/// Triangles of the whole cells.
 void FaceMesher::State::writeQuads() {
   const uint32_t nv = uint32_t(vs.size());
-  quadStrips.clear(), quadStarts.assign(1, 0), quadTriangles.clear();
+  quads.runs = trace.runs;
+  quads.strips = uint32_t(us.size()) - 1, quads.rows = nv - 1;
+  quads.rises.clear(), quads.triangles.clear();
+  for (const FaceMesh::Strip& strip : gridStrips) quads.rises.push_back(strip.rises);
+  quads.alongU = areRowsCheaper(trace.runs, quads.rises);
   for (const CellRun& run : trace.runs) {
     const uint32_t i = run.strip;
-    const bool rises = gridStrips[i].rises;
-    // A strip that begins on the left line has diagonals that fall, and counter-clockwise triangles; one that begins on the right
-    // has both the other way, but for its first index twice.
-    if (rises != model.faces[face].isReversed)
-      quadStrips.push_back(gridVertexAt((rises ? i + 1 : i) * nv + run.first));
-    for (uint32_t j = run.first; j <= run.end; ++j) {
-      const uint32_t a = gridVertexAt(i * nv + j), b = gridVertexAt((i + 1) * nv + j);
-      quadStrips.push_back(rises ? b : a), quadStrips.push_back(rises ? a : b);
-      if (j == run.end) break;
-      const uint32_t c = gridVertexAt(i * nv + j + 1), d = gridVertexAt((i + 1) * nv + j + 1);
-      if (rises)
-        quadTriangles.insert(quadTriangles.end(), {a, b, d, a, d, c});
-      else
-        quadTriangles.insert(quadTriangles.end(), {a, b, c, b, d, c});
+    for (uint32_t j = run.first; j < run.end; ++j) {
+      const uint32_t low = i * nv + j, high = low + nv;
+      quads.add(gridVertexAt(low), gridVertexAt(high), gridVertexAt(low + 1),
+                gridVertexAt(high + 1), quads.rises[i]);
     }
-    quadStarts.push_back(uint32_t(quadStrips.size()));
   }
 }
 
@@ -1049,27 +1026,22 @@ void FaceMesher::State::finish() {
     mesh->roles[v] = FaceMesh::Role::None;
     mesh->unused.push_back(v);
   }
-  std::vector<uint32_t>&strips = bandStrips, &starts = bandStripStarts;
-  strips.clear(), starts.clear();
   linkBand();
-  const uint32_t count = band.triangleCount();
-  allTriangles.resize(count);
-  for (uint32_t t = 0; t < count; ++t) allTriangles[t] = t;
-  writeStrips(band.corners, band.twins, bandLinks, allTriangles, *work, strips, starts);
-  for (uint32_t& v : strips) v = mesh->poles[v];
-  mesh->triangles = quadTriangles;
-  for (uint32_t t = 0; t < count; ++t) {
+  const bool isReversed = model.faces[face].isReversed;
+  if (!faceStrips.write(quads, uint32_t(mesh->positions.size()), band.corners, band.twins,
+                        bandLinks, isReversed, *work, mesh->strips, mesh->stripStarts))
+    return;
+  for (uint32_t& v : mesh->strips) v = mesh->poles[v];
+  mesh->triangles = quads.triangles;
+  for (uint32_t t = 0; t < band.triangleCount(); ++t) {
     const uint32_t a = mesh->poles[band.corners[3 * t]], b = mesh->poles[band.corners[3 * t + 1]],
                    c = mesh->poles[band.corners[3 * t + 2]];
     if (a != b && b != c && c != a) mesh->triangles.insert(mesh->triangles.end(), {a, b, c});
   }
-  mesh->strips = quadStrips, mesh->stripStarts = quadStarts;
-  const uint32_t first = uint32_t(mesh->strips.size());
-  mesh->strips.insert(mesh->strips.end(), strips.begin(), strips.end());
-  for (size_t i = 1; i < starts.size(); ++i) mesh->stripStarts.push_back(first + starts[i]);
+  for (size_t i = 0; i < mesh->triangles.size() && isReversed; i += 3)
+    std::swap(mesh->triangles[i + 1], mesh->triangles[i + 2]);
   mesh->band.swap(band.corners), mesh->bandTwins.swap(band.twins);
   mesh->bandOff.swap(bandOff), mesh->bandLinks.bits.swap(bandLinks.bits);
-  if (model.faces[face].isReversed) turnRound(*mesh, quadStarts.size() - 1);
 }
 
 FaceProblem FaceMesher::run(uint32_t face, const EdgeSamples& samples, Density& density,

@@ -18,20 +18,14 @@ class StripFinder {
 
  private:
   void choosePaths();
-  bool joinEnds();
 
   uint32_t triangleCount() const { return uint32_t(twins_.size() / 3); }
-  uint32_t root(uint32_t t) {
-    while (path_[t] != t) t = path_[t] = path_[path_[t]];
-    return t;
-  }
 
   ArrayView<const uint32_t> twins_;
   Work& work_;
   Charge charge_;
   StripForest forest_;
   StripLinks& links_;
-  std::vector<uint32_t> path_;  // union-find over the triangles of one path
 };
 
 /// The choices behind the least costs, from the roots down.
@@ -56,37 +50,19 @@ void StripFinder::choosePaths() {
   }
 }
 
-/// Joins paths end to end across edges that the forest has not, while that saves indices.
-bool StripFinder::joinEnds() {
-  const uint32_t count = triangleCount();
-  path_.resize(count);
-  for (uint32_t t = 0; t < count; ++t) path_[t] = t;
-  for (uint32_t h = 0; h < 3 * count; ++h)
-    if (links_.linked(h)) path_[root(h / 3)] = root(twins_[h] / 3);
-  for (uint32_t allowed = 0; allowed < 2; ++allowed) {
-    for (uint32_t h = 0; h < 3 * count; ++h) {
-      const uint32_t g = twins_[h];
-      if (g == kNone || g < h || links_.linked(h)) continue;
-      if (links_.count(h / 3) > 1 || links_.count(g / 3) > 1) continue;
-      if (links_.swapsToJoin(twins_, h) > allowed || root(h / 3) == root(g / 3)) continue;
-      links_.link(h, g);
-      path_[root(h / 3)] = root(g / 3);
-    }
-    if (!work_.tick(16 * count)) return false;
-  }
-  return true;
-}
-
 bool StripFinder::run() {
   if (!charge_.add(uint64_t(triangleCount()) * (sizeof(StripCosts) + 16))) return false;
   if (!forest_.grow(twins_, work_)) return false;
   choosePaths();
-  return joinEnds();
+  // Across edges that the forest has not.
+  return joinStripEnds(twins_, 1, work_, links_);
 }
 
 /// Swaps of the path that starts in the end triangle `first`.
-uint32_t swapsFrom(ArrayView<const uint32_t> twins, const StripLinks& links, uint32_t first) {
-  uint32_t swaps = 0, last = 0;  // a first turn 0 costs as much as one after another turn 0
+uint32_t swapsFrom(ArrayView<const uint32_t> twins, const StripLinks& links, uint32_t first,
+                   bool turned) {
+  // A first turn 0 costs as much as one after another turn 0; on the other side a first turn 1.
+  uint32_t swaps = 0, last = turned;
   for (uint32_t out = links.only(first); out != kNone;) {
     const uint32_t in = twins[out];
     out = links.exit(in);
@@ -99,13 +75,16 @@ uint32_t swapsFrom(ArrayView<const uint32_t> twins, const StripLinks& links, uin
 }
 
 void writeStrip(ArrayView<const uint32_t> corners, ArrayView<const uint32_t> twins,
-                const StripLinks& links, uint32_t first, std::vector<uint32_t>& vertices) {
+                const StripLinks& links, uint32_t first, bool turned,
+                std::vector<uint32_t>& vertices) {
   uint32_t out = links.only(first);
   if (out == kNone) {
     vertices.insert(vertices.end(), &corners[3 * first], &corners[3 * first] + 3);
+    if (turned) std::swap(vertices[vertices.size() - 2], vertices.back());
     return;
   }
   uint32_t p = corners[out], q = corners[nextInTriangle(out)];  // the last two indices
+  if (turned) std::swap(p, q);
   vertices.push_back(corners[prevInTriangle(out)]);
   vertices.push_back(p);
   vertices.push_back(q);
@@ -157,13 +136,42 @@ uint32_t StripLinks::swapsToJoin(ArrayView<const uint32_t> twins, uint32_t h) co
   return swaps;
 }
 
+bool joinStripEnds(ArrayView<const uint32_t> twins, uint32_t mostSwaps, Work& work,
+                   StripLinks& links) {
+  // Which path each triangle is on: a union-find.
+  const uint32_t count = uint32_t(twins.size() / 3);
+  std::vector<uint32_t> path(count);
+  for (uint32_t t = 0; t < count; ++t) path[t] = t;
+  const auto root = [&](uint32_t t) {
+    while (path[t] != t) t = path[t] = path[path[t]];
+    return t;
+  };
+  for (uint32_t h = 0; h < 3 * count; ++h)
+    if (links.linked(h) && twins[h] < h) path[root(h / 3)] = root(twins[h] / 3);
+  for (uint32_t allowed = 0; allowed <= mostSwaps; ++allowed) {
+    for (uint32_t t = 0; t < count; ++t) {
+      if (links.count(t) > 1) continue;
+      for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        const uint32_t g = twins[h];
+        if (g == kNone || links.linked(h)) continue;
+        if (links.count(t) > 1 || links.count(g / 3) > 1) continue;
+        if (links.swapsToJoin(twins, h) > allowed || root(t) == root(g / 3)) continue;
+        links.link(h, g);
+        path[root(t)] = root(g / 3);
+      }
+    }
+    if (!work.tick(16 * count)) return false;
+  }
+  return true;
+}
+
 bool linkStrips(ArrayView<const uint32_t> twins, Work& work, StripLinks& links) {
   return StripFinder(twins, work, links).run();
 }
 
 bool writeStrips(ArrayView<const uint32_t> corners, ArrayView<const uint32_t> twins,
                  const StripLinks& links, ArrayView<const uint32_t> among, Work& work,
-                 std::vector<uint32_t>& vertices, std::vector<uint32_t>& starts) {
+                 std::vector<uint32_t>& vertices, std::vector<uint32_t>& starts, bool turned) {
   std::vector<bool> written(corners.size() / 3, false);
   vertices.clear();
   vertices.reserve(among.size() + among.size() / 2);
@@ -176,8 +184,9 @@ bool writeStrips(ArrayView<const uint32_t> corners, ArrayView<const uint32_t> tw
       last = twins[out] / 3;
       written[last] = true;
     }
-    const bool reversed = swapsFrom(twins, links, last) < swapsFrom(twins, links, t);
-    writeStrip(corners, twins, links, reversed ? last : t, vertices);
+    const bool reversed =
+        swapsFrom(twins, links, last, turned) < swapsFrom(twins, links, t, turned);
+    writeStrip(corners, twins, links, reversed ? last : t, turned, vertices);
     starts.push_back(uint32_t(vertices.size()));
     if (!work.tick(32)) return false;
   }

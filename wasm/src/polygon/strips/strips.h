@@ -76,14 +76,22 @@ void joinStrips(ArrayView<const uint32_t> twins, ArrayView<const uint32_t> among
 /// O(m) time, 36 bytes of memory a triangle.
 bool linkStrips(ArrayView<const uint32_t> twins, Work& work, StripLinks& links);
 
+/// Joins strips end to end wherever they meet, while that saves indices: first where no swap is needed, then where one is, and so on.
+/// False when the work ended. O(m) time, 4 bytes of memory a triangle.
+///   mostSwaps  the most that a join may need. A strip less saves two indices, and a restart
+bool joinStripEnds(ArrayView<const uint32_t> twins, uint32_t mostSwaps, Work& work,
+                   StripLinks& links);
+
 /// Writes the strips of some triangles. Each strip must lie among them wholly or not at all.
 ///   corners   [3m] triangles, counter-clockwise
 ///   among     triangles
 ///   vertices  out: the indices of all strips
 ///   starts    [s+1] out: strip i is vertices[starts[i]] .. vertices[starts[i + 1] - 1]
+///   turned    whether the strips are those of the triangles' other sides
 bool writeStrips(ArrayView<const uint32_t> corners, ArrayView<const uint32_t> twins,
                  const StripLinks& links, ArrayView<const uint32_t> among, Work& work,
-                 std::vector<uint32_t>& vertices, std::vector<uint32_t>& starts);
+                 std::vector<uint32_t>& vertices, std::vector<uint32_t>& starts,
+                 bool turned = false);
 
 /// Strips with every triangle in exactly one of them: finds and writes them.
 bool makeStrips(ArrayView<const uint32_t> corners, ArrayView<const uint32_t> twins, Work& work,
