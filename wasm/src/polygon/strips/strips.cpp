@@ -58,20 +58,14 @@ bool StripFinder::run() {
   return joinStripEnds(twins_, 1, work_, links_);
 }
 
-/// Swaps of the path that starts in the end triangle `first`.
-uint32_t swapsFrom(ArrayView<const uint32_t> twins, const StripLinks& links, uint32_t first,
-                   bool turned) {
-  // A first turn 0 costs as much as one after another turn 0; on the other side a first turn 1.
-  uint32_t swaps = 0, last = turned;
-  for (uint32_t out = links.only(first); out != kNone;) {
-    const uint32_t in = twins[out];
-    out = links.exit(in);
-    if (out == kNone) break;
-    const uint32_t turn = turnOf(in, out);
-    swaps += turn == last;
-    last = turn;
-  }
-  return swaps;
+/// Whether the path that starts in the end triangle `first` begins with a swap: on the other side of the triangles it does where it
+/// does not on this one. All other swaps are the same from either end.
+bool beginsWithSwap(ArrayView<const uint32_t> twins, const StripLinks& links, uint32_t first,
+                    bool turned) {
+  const uint32_t out = links.only(first);
+  if (out == kNone) return false;
+  const uint32_t in = twins[out], next = links.exit(in);
+  return next != kNone && turnOf(in, next) == uint32_t(turned);
 }
 
 void writeStrip(ArrayView<const uint32_t> corners, ArrayView<const uint32_t> twins,
@@ -185,7 +179,7 @@ bool writeStrips(ArrayView<const uint32_t> corners, ArrayView<const uint32_t> tw
       written[last] = true;
     }
     const bool reversed =
-        swapsFrom(twins, links, last, turned) < swapsFrom(twins, links, t, turned);
+        beginsWithSwap(twins, links, t, turned) && !beginsWithSwap(twins, links, last, turned);
     writeStrip(corners, twins, links, reversed ? last : t, turned, vertices);
     starts.push_back(uint32_t(vertices.size()));
     if (!work.tick(32)) return false;
