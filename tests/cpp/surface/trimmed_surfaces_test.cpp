@@ -300,6 +300,20 @@ TEST_CASE("TrimmedSurfaces: what a camera does not see is coarse, and what is ne
   CHECK(triangles() < far);
 }
 
+TEST_CASE(
+    "TrimmedSurfaces: memory is limited for all faces together, and what it is too little for "
+    "leaves nothing behind") {
+  Opened opened(solidCylinder(1, 20));
+  Tessellation told;
+  const TessellationLimits none;
+  Work little(20'000, nullptr, nullptr);
+  CHECK_FALSE(opened.surfaces->tessellate(samplingOf(1e-4), none, little, told));
+  CHECK(little.status() == Status::OutOfMemory);
+  Work enough(50'000'000, nullptr, nullptr);
+  REQUIRE(opened.surfaces->update(samplingOf(1e-4), none, enough, told));
+  check(*opened.surfaces, told);
+}
+
 TEST_CASE("TrimmedSurfaces: whatever is allowed, no triangle is without area") {
   std::mt19937 random(5);
   for (const ModelBuilder& model : {sphere(1), solidCylinder(1, 20), wavyPlate(random, 0.3, 3)})

@@ -9,6 +9,13 @@ namespace {
 
 /// The sampling at which loops are checked when a model is opened, in its diagonal.
 constexpr double kCheckTolerance = 1e-3;
+/// What is known of a face's lines, and of an edge's intervals, about.
+constexpr uint64_t kColumnBytes = 4096, kTreeBytes = 1024;
+
+/// What the mesh of a face takes, with its part of the layout.
+double bytesOf(const FaceMesh& mesh) {
+  return 112.0 * double(mesh.positions.size()) + 24.0 * double(mesh.triangles.size());
+}
 
 Box2 boxOf(const Model& model, uint32_t face, const EdgeSamples& samples) {
   const BezierSpans &u = model.faces[face].surface->u(), &v = model.faces[face].surface->v();
@@ -147,7 +154,10 @@ void TrimmedSurfaces::plantTree(uint32_t edge) {
 
 std::unique_ptr<TrimmedSurfaces> TrimmedSurfaces::open(Model&& model, Work& work, Charge& charge,
                                                        std::vector<ModelFault>& faults) {
-  (void)charge;
+  constexpr uint64_t kPerFace = sizeof(FaceMesh) + sizeof(Density) + 2 * sizeof(Density::Lines) +
+                                2 * sizeof(Allowance) + kColumnBytes,
+                     kPerEdge = sizeof(EdgeTree) + kTreeBytes;
+  if (!charge.add(kPerFace * model.faces.size() + kPerEdge * model.edges.size())) return nullptr;
   std::unique_ptr<TrimmedSurfaces> opened(new TrimmedSurfaces(std::move(model)));
   TrimmedSurfaces& s = *opened;
   const Model& m = s.model_;
@@ -287,6 +297,8 @@ bool TrimmedSurfaces::chooseAll(const Sampling& sampling, const Fineness& finene
 /// Meshes the faces that change.
 bool TrimmedSurfaces::meshFaces(const Sampling& sampling, bool updates, Work& work) {
   const Fineness fineness(sampling);
+  double bytes = 0;
+  for (const FaceMesh& mesh : meshes_) bytes += bytesOf(mesh);
   if (!chooseAll(sampling, fineness, updates, work)) return false;
   const uint32_t faces = uint32_t(model_.faces.size());
   std::vector<uint32_t> open;
@@ -299,10 +311,13 @@ bool TrimmedSurfaces::meshFaces(const Sampling& sampling, bool updates, Work& wo
   bool acceptsEdges = false;
   while (!open.empty()) {
     const uint32_t f = open.back();
+    bytes -= bytesOf(meshes_[f]);
     const FaceProblem problem = mesher_->run(f, samples_, densities_[f], lines_[f], allowances_[f],
                                              updates, acceptsEdges, work, meshes_[f]);
     acceptsEdges = false;
-    if (problem.kind == FaceProblem::Kind::Ended) return false;
+    bytes += bytesOf(meshes_[f]);
+    if (!work.fits(bytes)) work.fail(Status::OutOfMemory);
+    if (problem.kind == FaceProblem::Kind::Ended || !work.going()) return false;
     if (problem.kind == FaceProblem::Kind::None) {
       open.pop_back(), isOpen[f] = 0, isEdited_[f] = 0;
       work.setFraction(double(++done) / total);
