@@ -113,7 +113,8 @@ export function teapot(windows: (patch: number) => { curve: NurbsCurve; range: [
       edges.push({ range: window.range });
     }
     const surface = { degreeU: 3, degreeV: 3, knotsU: kKnots, knotsV: kKnots, countU: 4, countV: 4, poles: poles.map(poleAt) };
-    faces.push({ surface, loops });
+    // Its normals point inwards.
+    faces.push({ surface, loops, reversed: true });
   }
   return { faces, edges };
 }
