@@ -153,6 +153,7 @@ test('the second view: with the camera followed, where it is wanted', async ({ q
   const pictureOf = async (): Promise<string> => (await second.screenshot()).toString('base64');
   const before = await pictureOf();
   const eye = () => page.evaluate(() => JSON.stringify(window.__surfaces?.meshed?.of.sampling.camera?.eye));
+  await stateOf(page);
   const seenFrom = await eye();
   const at = await second.boundingBox();
   if (!at) throw new Error('There is no second view.');
@@ -174,14 +175,16 @@ test('the camera followed: finer when near, kept when frozen', async ({ quietPag
   await expect(summary(page)).toHaveText(/^25 faces/);
   await page.getByRole('switch', { name: 'Follow the camera' }).click();
   await page.waitForFunction(() => window.__surfaces?.meshed?.of.sampling.camera !== undefined);
-  // Frozen first: until then the view may still be coming to rest.
+  // Frozen first: only then is it certain that no later picture of the camera is on its way.
   await page.getByRole('switch', { name: 'Freeze' }).click();
   const far = await stateOf(page);
+  const eyeOf = () => page.evaluate(() => window.__surfaces?.eye());
+  const eye = await eyeOf();
   const canvas = await page.locator('canvas').first().boundingBox();
   if (!canvas) throw new Error('There is no canvas.');
   await page.mouse.move(canvas.x + canvas.width / 2, canvas.y + canvas.height / 2);
   for (let i = 0; i < 8; i++) await page.mouse.wheel(0, -240);
-  await page.waitForTimeout(500);
+  await expect.poll(eyeOf).not.toEqual(eye);
   expect((await stateOf(page)).triangles).toBe(far.triangles);
   await page.getByRole('switch', { name: 'Freeze' }).click();
   await expect.poll(async () => (await stateOf(page)).triangles).not.toBe(far.triangles);

@@ -1,5 +1,5 @@
 // What the mode draws besides handles: the mesh and the edges of the model; the picture that the mesh is for, and a second view.
-import { signal } from '@preact/signals';
+import { computed, signal, untracked } from '@preact/signals';
 import { Matrix4, Vector3 } from 'three';
 import type { Change } from 'soapfilm/surfaces';
 import { FatLines } from '../../scene/fat_line.ts';
@@ -58,26 +58,33 @@ export function drawSurfaces(stage: Stage, scene: ModeScene): void {
     edges.put(segmentsOf(now.change, placement.value), { color: theme.value.curves.line, width: kEdge });
   });
   drawSecond(stage, scene);
+  const take = (): void => {
+    if (mode.peek() !== kMode) return;
+    const { camera } = viewpoint;
+    camera.updateMatrixWorld();
+    const { center, unit } = placement.peek();
+    const toScene = new Matrix4().makeScale(1 / unit, 1 / unit, 1 / unit).multiply(new Matrix4().makeTranslation(-center[0], -center[1], -center[2]));
+    const eye = new Vector3().setFromMatrixPosition(camera.matrixWorld).applyMatrix4(toScene.clone().invert());
+    const viewProjection = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).multiply(toScene);
+    const [width, height] = stage.view.size;
+    const next = { eye: eye.toArray(), viewProjection: viewProjection.toArray(), width, height };
+    if (JSON.stringify(picture.peek()) !== JSON.stringify(next)) picture.value = next;
+  };
   let timer: ReturnType<typeof setTimeout> | undefined;
   const look = (): void => {
     if (timer !== undefined) return;
     timer = setTimeout(() => {
       timer = undefined;
-      if (mode.peek() !== kMode || frozen.peek()) return;
-      const { camera } = viewpoint;
-      camera.updateMatrixWorld();
-      const { center, unit } = placement.peek();
-      const toScene = new Matrix4().makeScale(1 / unit, 1 / unit, 1 / unit).multiply(new Matrix4().makeTranslation(-center[0], -center[1], -center[2]));
-      const eye = new Vector3().setFromMatrixPosition(camera.matrixWorld).applyMatrix4(toScene.clone().invert());
-      const viewProjection = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).multiply(toScene);
-      const [width, height] = stage.view.size;
-      const next = { eye: eye.toArray(), viewProjection: viewProjection.toArray(), width, height };
-      if (JSON.stringify(picture.peek()) !== JSON.stringify(next)) picture.value = next;
+      if (!frozen.peek()) take();
     }, kPictureMs);
   };
   stage.view.onCamera(look);
+  const follows = computed(() => settings.value.follows);
   stage.view.follow(() => {
-    if (settings.value.follows && !frozen.value) look();
+    if (!follows.value) return;
+    // Frozen is the picture at that moment, not one up to `kPictureMs` older.
+    if (frozen.value) untracked(take);
+    else look();
   });
 }
 

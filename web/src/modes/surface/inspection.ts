@@ -4,14 +4,16 @@ import { inWindow, valuesOf } from '../../app/inspection.ts';
 import type { ModeScene } from '../../scene/mode_scene.ts';
 import type { Stage } from '../../scene/stage.ts';
 import { handlesOf, placeOf, type Handle } from './handles.ts';
-import { meshed, meshing, model, type Meshed } from './meshing.ts';
+import { meshed, meshing, model, wish, type Meshed } from './meshing.ts';
 
 export interface SurfaceInspection {
   readonly meshed: Meshed | null;
   readonly phase: string;
-  /** Whether the mesh is that of the model as it is. */
+  /** Whether the mesh is that of the model, the settings and the picture as they are. */
   readonly isSettled: boolean;
   readonly handles: readonly Handle[];
+  /** Where the camera stands now, in the scene. */
+  eye(): readonly number[];
   /** Where a handle appears, in CSS pixels of the window. */
   whereIs(handle: number): { x: number; y: number };
 }
@@ -27,10 +29,11 @@ export function exposeForInspection({ view }: Stage, { viewpoint }: ModeScene): 
   const signals = {
     meshed,
     phase: computed(() => meshing.state.value.phase),
-    isSettled: computed(() => meshing.state.value.phase === 'done' && meshed.value?.of.model === model.value),
+    isSettled: computed(() => meshing.state.value.phase === 'done' && meshed.value?.of === wish.value),
     handles,
   };
   window.__surfaces = Object.assign(valuesOf(signals), {
+    eye: () => viewpoint.camera.position.toArray(),
     whereIs: (handle: number) => {
       const of = model.peek();
       const at = of ? viewpoint.project(placeOf(of, handles.peek()[handle])) : { x: NaN, y: NaN };

@@ -30,7 +30,7 @@ export interface Picture {
 
 /** The picture that the mesh is for; null: none, or not yet. Set by what draws. */
 export const picture = signal<Picture | null>(null);
-/** Whether the mesh stays as it is for the camera as it was, to be looked at from elsewhere. */
+/** Whether the picture stays as it was, and with it the mesh, once that is made for it: to be looked at from elsewhere. */
 export const frozen = signal(false);
 
 export const settings = computed(() => surfaceGroup.value.settings);
@@ -43,7 +43,8 @@ export const model = computed<Model | null>(() => {
   return all.length === 1 ? all[0] : { instances: all.map((part) => ({ part })) };
 });
 
-const wish = computed<Wish | null>(() => {
+/** What mesh there is to be. */
+export const wish = computed<Wish | null>(() => {
   const of = model.value;
   if (of === null) return null;
   const { relative, angle, aspect, follows, pixels, skips } = settings.value;
@@ -78,6 +79,7 @@ export const meshing = createWork<Wish, Meshed>({
       opened = null;
       const handle = await film.createTrimmedModel(of.model, { skipInvalid: of.skips, signal: ends });
       if (ends.aborted) handle.dispose();
+      ends.throwIfAborted();
       opened = { model: of.model, skips: of.skips, handle };
     }
     const { handle } = opened;
