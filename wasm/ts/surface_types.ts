@@ -156,7 +156,7 @@ export interface SamplingCamera {
 export interface Sampling {
   /** Most distance of mesh and surface. With `relative`, the lesser of the two counts. Default: what `relative` says. */
   readonly tolerance?: number;
-  /** The same as a share of the diagonal of the box around the model. Default 1e-3, but with `tolerance` or `camera`: none. */
+  /** The same as a share of the diagonal of the box around all poles. Default 1e-3, but with `tolerance` or `camera`: none. */
   readonly relative?: number;
   /** Most turn of the normal along an edge, in radians; Infinity: any. Default 0.35, with `camera`: any. */
   readonly angle?: number;
