@@ -443,6 +443,11 @@ void FaceMesher::State::measureCells(const Density::Lines& lines, bool& isRefine
   mesh->excess = 0;
   halvedU.assign(nu - 1, 0), halvedV.assign(nv - 1, 0);
   quads.alongU = areRowsCheaper(trace.runs);
+  // A strip that has no whole cells any more is not off.
+  for (size_t i = 0, r = 0; i < gridStrips.size(); ++i) {
+    if (r == trace.runs.size() || trace.runs[r].strip != i) gridStrips[i].off = 0;
+    while (r < trace.runs.size() && trace.runs[r].strip == i) ++r;
+  }
   if (trace.runs.empty()) return;
   const auto at = [](const std::vector<double>& of, size_t i) {
     return Vec3{of[3 * i], of[3 * i + 1], of[3 * i + 2]};
