@@ -1,6 +1,7 @@
 #include "polygon/strips/strips.h"
 
 #include "base/charge.h"
+#include "base/union_find.h"
 #include "polygon/strips/strip_forest.h"
 
 namespace sf {
@@ -132,16 +133,10 @@ uint32_t StripLinks::swapsToJoin(ArrayView<const uint32_t> twins, uint32_t h) co
 
 bool joinStripEnds(ArrayView<const uint32_t> twins, uint32_t mostSwaps, Work& work,
                    StripLinks& links) {
-  // Which path each triangle is on: a union-find.
   const uint32_t count = uint32_t(twins.size() / 3);
-  std::vector<uint32_t> path(count);
-  for (uint32_t t = 0; t < count; ++t) path[t] = t;
-  const auto root = [&](uint32_t t) {
-    while (path[t] != t) t = path[t] = path[path[t]];
-    return t;
-  };
+  UnionFind paths(count);
   for (uint32_t h = 0; h < 3 * count; ++h)
-    if (links.linked(h) && twins[h] < h) path[root(h / 3)] = root(twins[h] / 3);
+    if (links.linked(h) && twins[h] < h) paths.unite(h / 3, twins[h] / 3);
   for (uint32_t allowed = 0; allowed <= mostSwaps; ++allowed) {
     for (uint32_t t = 0; t < count; ++t) {
       if (links.count(t) > 1) continue;
@@ -149,9 +144,8 @@ bool joinStripEnds(ArrayView<const uint32_t> twins, uint32_t mostSwaps, Work& wo
         const uint32_t g = twins[h];
         if (g == kNone || links.linked(h)) continue;
         if (links.count(t) > 1 || links.count(g / 3) > 1) continue;
-        if (links.swapsToJoin(twins, h) > allowed || root(t) == root(g / 3)) continue;
+        if (links.swapsToJoin(twins, h) > allowed || !paths.unite(t, g / 3)) continue;
         links.link(h, g);
-        path[root(t)] = root(g / 3);
       }
     }
     if (!work.tick(16 * count)) return false;
