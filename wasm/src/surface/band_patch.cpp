@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/sort.h"
 #include "triangles/triangle_mesh.h"
 
 namespace sf {
@@ -104,7 +105,7 @@ bool BandPatch::linkRings(const Band& band) {
   const auto less = [](const Edge& a, const Edge& b) {
     return a.from < b.from || (a.from == b.from && a.to < b.to);
   };
-  std::sort(hole_.begin(), hole_.end(), less);
+  sf::sort(hole_.begin(), hole_.end(), less);
   const auto firstFrom = [&](uint32_t v) {
     return size_t(std::lower_bound(hole_.begin(), hole_.end(), Edge{v, 0}, less) - hole_.begin());
   };

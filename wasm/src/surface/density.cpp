@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort.h"
+
 namespace sf {
 namespace {
 
@@ -169,7 +171,7 @@ double usualLength(const LineTree& tree, const LineTree::Choice& choice) {
     lengths.push_back(tree.length(n));
     total += lengths.back();
   }
-  std::sort(lengths.begin(), lengths.end());
+  sf::sort(lengths.begin(), lengths.end());
   double above = 0;
   size_t i = lengths.size();
   while (i > 1 && above < total / 2) above += lengths[--i];

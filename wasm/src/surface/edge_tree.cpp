@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort.h"
 #include "surface/density.h"
 
 namespace sf {
@@ -62,7 +63,7 @@ EdgeTree::EdgeTree(const Model& model, uint32_t edge, ArrayView<const uint32_t> 
     for (const uint32_t u : uses) model.uses[u].curve.appendBreaks(e.from, e.to, breaks_);
     // A curve of space has its corners at its breaks; one that is none, where it crosses creases of its surface.
     if (!e.curve) appendCrossings(model, e, breaks_);
-    std::sort(breaks_.begin(), breaks_.end());
+    sf::sort(breaks_.begin(), breaks_.end());
   }
   const double least = kShortest * (e.to - e.from);
   std::vector<double> kept = {e.from};

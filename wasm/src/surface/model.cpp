@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort.h"
 #include "base/union_find.h"
 #include "surface/missing_curves.h"
 
@@ -142,7 +143,7 @@ bool allAlong(const Model& model, const ModelEdge& edge, const ModelUse* use, Wo
   if (edge.curve) addBreaks(*edge.curve);
   if (use) addBreaks(use->curve.curve());
   stops.push_back(edge.to);
-  std::sort(stops.begin(), stops.end());
+  sf::sort(stops.begin(), stops.end());
   const auto spanNumbers = [&](double t) {
     const NurbsSurface& surface = *model.faces[use->face].surface;
     const Point2 p = use->curve.at(t);
@@ -535,14 +536,14 @@ void ModelReader::unite() {
                           end(use, false)};
       if (!push(corners, corner, charge_)) return;
     }
-    std::sort(corners.begin(), corners.end(),
-              [](const Corner& a, const Corner& b) { return a.at.x < b.at.x; });
+    sf::sort(corners.begin(), corners.end(),
+             [](const Corner& a, const Corner& b) { return a.at.x < b.at.x; });
     // Runs of corners with nearly the same u can be long; in each by v.
     for (size_t first = 0, last = 0; first < corners.size(); first = last) {
       do ++last;
       while (last < corners.size() && corners[last].at.x - corners[last - 1].at.x <= near.x);
-      std::sort(corners.begin() + first, corners.begin() + last,
-                [](const Corner& a, const Corner& b) { return a.at.y < b.at.y; });
+      sf::sort(corners.begin() + first, corners.begin() + last,
+               [](const Corner& a, const Corner& b) { return a.at.y < b.at.y; });
       for (size_t i = first; i < last; ++i)
         for (size_t k = i + 1; k < last && corners[k].at.y - corners[i].at.y <= near.y; ++k)
           if (std::fabs(corners[k].at.x - corners[i].at.x) <= near.x)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort.h"
+
 namespace sf {
 namespace {
 
@@ -141,8 +143,8 @@ void Trace::findRuns() {
   for (const Mark& mark : marks_) sorted_[firsts_[mark.strip]++] = mark;
   marks_.swap(sorted_);
   for (uint32_t s = 0, begin = 0; s < strips; begin = firsts_[s++])
-    std::sort(marks_.begin() + begin, marks_.begin() + firsts_[s],
-              [](const Mark& a, const Mark& b) { return a.first < b.first; });
+    sf::sort(marks_.begin() + begin, marks_.begin() + firsts_[s],
+             [](const Mark& a, const Mark& b) { return a.first < b.first; });
   runs.clear(), dirty_.clear();
   dirtyStarts_.assign(1, 0);
   size_t m = 0;
@@ -232,7 +234,7 @@ void Trace::findBorder() {
 
 void Trace::findIslands() {
   islands.clear();
-  std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
+  sf::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
     return a.line < b.line || (a.line == b.line && a.v < b.v);
   });
   const uint32_t lines = uint32_t(us_.size()), rows = uint32_t(vs_.size()) - 1;

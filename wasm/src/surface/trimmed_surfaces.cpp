@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/sort.h"
+
 namespace sf {
 namespace {
 
@@ -518,7 +520,7 @@ std::vector<uint32_t> TrimmedSurfaces::edgesOf(uint32_t face) const {
   for (uint32_t l = model_.faces[face].firstLoop; l < model_.faces[face].endLoop; ++l)
     for (uint32_t u = model_.loops[l].firstUse; u < model_.loops[l].endUse; ++u)
       edges.push_back(model_.uses[u].edge);
-  std::sort(edges.begin(), edges.end());
+  sf::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/predicates.h"
+#include "base/sort.h"
 #include "triangles/triangle_mesh.h"
 
 namespace sf {
@@ -79,7 +80,7 @@ class TinChecker {
   Work& work_;
   std::vector<uint32_t>& twins_;
   TinProblem& problem_;
-  // Half-edges by the vertex that they leave, in each by where they go.
+  // Half-edges by the vertex that they leave.
   std::vector<uint32_t> firsts_, leaving_;
   std::vector<uint8_t> isSeen_;  // [3m]
   // Border edges, and the cells of a grid with those that pass through each, or near it.
@@ -119,7 +120,7 @@ bool TinChecker::checkPlaces() {
   std::vector<uint32_t> order;
   for (uint32_t v = 0; v < used.size(); ++v)
     if (used[v]) order.push_back(v);
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+  sf::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
     const Point2 p = at(a), q = at(b);
     return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : a < b;
   });
@@ -137,22 +138,19 @@ bool TinChecker::findTwins() {
   leaving_.resize(count);
   std::vector<uint32_t> next(firsts_.begin(), firsts_.end() - 1);
   for (uint32_t h = 0; h < count; ++h) leaving_[next[from(h)]++] = h;
-  const auto isLess = [&](uint32_t h, uint32_t g) {
-    return to(h) != to(g) ? to(h) < to(g) : h < g;
-  };
-  for (uint32_t v = 0; v < vertexCount(); ++v) {
-    const auto begin = leaving_.begin() + firsts_[v], end = leaving_.begin() + firsts_[v + 1];
-    std::sort(begin, end, isLess);
-    for (auto h = begin; h != end && h + 1 != end; ++h)
-      if (to(*h) == to(h[1])) return failAtEdge(*h, h[1]);
-  }
+  // For each vertex: the half-edge from it to each of its neighbours.
   twins_.assign(count, kNone);
-  for (uint32_t h = 0; h < count; ++h) {
-    const uint32_t v = to(h), w = from(h);
-    const auto begin = leaving_.begin() + firsts_[v], end = leaving_.begin() + firsts_[v + 1];
-    const auto found =
-        std::lower_bound(begin, end, w, [&](uint32_t g, uint32_t goal) { return to(g) < goal; });
-    if (found != end && to(*found) == w) twins_[h] = *found;
+  std::vector<uint32_t> edgeTo(vertexCount(), kNone);
+  for (uint32_t v = 0; v < vertexCount(); ++v) {
+    const uint32_t begin = firsts_[v], end = firsts_[v + 1];
+    for (uint32_t i = begin; i < end; ++i) {
+      uint32_t& known = edgeTo[to(leaving_[i])];
+      if (known != kNone) return failAtEdge(known, leaving_[i]);
+      known = leaving_[i];
+    }
+    for (uint32_t i = begin; i < end; ++i)
+      twins_[prevInTriangle(leaving_[i])] = edgeTo[apex(leaving_[i])];
+    for (uint32_t i = begin; i < end; ++i) edgeTo[to(leaving_[i])] = kNone;
   }
   return work_.tick(60 * count);
 }

@@ -42,7 +42,7 @@ struct TinProblem {
 ///   triangles  [3m] counter-clockwise seen from above
 ///   orient     turns clockwise faces over, instead of naming the first of them
 ///   twins      [3m] out: for each half-edge, 3t + k from corner k to the next, the one on its other side, or kNone
-/// O(m log m) time for borders of which few parts are near each other.
+/// O(m + n log n) time for borders of which few parts are near each other.
 bool checkTin(ArrayView<const double> positions, std::vector<uint32_t>& triangles, bool orient,
               Work& work, std::vector<uint32_t>& twins, TinProblem& problem);
 
